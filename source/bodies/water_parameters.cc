@@ -1,14 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/bodies/water_parameters.h>
-#include <scree/input/case_entries.h>
-#include <scree/input/expression.h>
-#include <scree/input/input_error.h>
-#include <scree/particles/region.h>
-
-#include <deal.II/base/utilities.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace scree
 {
@@ -32,22 +23,6 @@ namespace scree
         "Pa; pressure at which water cavitates: p does not fall below it. p = 0 is the atmospheric pressure.",
         Patterns::Double(-1e15, 0));
     prm.leave_subsection();
-  }
-
-
-  void SeepageStart::add_parameters(ParameterHandler &prm)
-  {
-    prm.add_parameter("Steady seepage",
-                      is_steady,
-                      "Whether the pore pressure at the start is that of steady flow through the soil, with a free "
-                      "surface, between the heads of \"Reservoir level\" and \"Heads at walls\". Pores are full where "
-                      "it is not negative. Water leaves through faces in air. Alternative to \"Phreatic surface\".");
-    prm.add_parameter("Heads at walls",
-                      wall_heads,
-                      "m; elevations of the water table at walls of the box for \"Steady seepage\", such as Left: 12, "
-                      "Right: 4. They hold at the start only; in the run the wall is as in subsection "
-                      "Boundaries/Water. Empty: none.",
-                      Patterns::Anything());
   }
 
 
@@ -77,45 +52,12 @@ namespace scree
   }
 
 
-  void SeepageStart::check_heads(const std::vector<double> &lower, const std::vector<double> &upper) const
-  {
-    const double bottom = lower.back(), top = upper.back();
-    for (const auto &[wall, head] : heads())
-      {
-        require_entry(wall != "Top",
-                      { "Water", "Heads at walls", wall_heads },
-                      "no soil at the top wall is below a head in the box. Remove \"Top\".");
-        require_entry(head > bottom && head <= top,
-                      { "Water", "Heads at walls", wall_heads },
-                      "the head of " + number_text(head) + " m is not in the box of subsection Mesh. Write one above " +
-                          number_text(bottom) + " and up to " + number_text(top) + " m, or a larger box.");
-      }
-  }
-
-
-  std::vector<std::pair<std::string, double>> SeepageStart::heads() const
-  {
-    std::vector<std::pair<std::string, double>> heads;
-    for (const std::string &part : Utilities::split_string_list(wall_heads, ','))
-      {
-        const std::vector<std::string> words = Utilities::split_string_list(part, ':');
-        const double head                    = words.size() == 2 ? number_of(words[1]) : std::nan("");
-        require_entry(std::isfinite(head),
-                      { "Water", "Heads at walls", wall_heads },
-                      "write walls with their heads in m, such as Left: 12, Right: 4.");
-        heads.emplace_back(words.front(), head);
-      }
-    return heads;
-  }
-
-
   void WaterParameters::add_parameters(ParameterHandler &prm)
   {
     prm.add_parameter("Region",
                       region,
                       "Region of the water, in the pores of the soil and outside: same (wherever soil is), or an "
-                      "expression of x, y (z), in m. Without subsection Water the case is dry.",
-                      Patterns::Anything());
+                      "expression of x, y (z), in m. Without subsection Water the case is dry.");
     add_level_parameters(prm);
     prm.add_parameter(
         "Point sets",
@@ -144,8 +86,7 @@ namespace scree
     prm.add_parameter("Initial velocity",
                       initial_velocity,
                       "m/s; velocity of the water at the start, one expression per axis, separated by semicolons. "
-                      "Empty: at rest. Double-point only.",
-                      Patterns::Anything());
+                      "Empty: at rest. Double-point only.");
     prm.add_parameter("Air entry pressure",
                       air_entry_pressure,
                       "Pa; suction at which air enters the pores. Where dry soil lies behind the surface of the water, "
@@ -153,23 +94,6 @@ namespace scree
                       "full up to the height where the suction is that "
                       "large. 0: no suction. Double-point only.",
                       Patterns::Double(0));
-  }
-
-
-  void WaterParameters::add_level_parameters(ParameterHandler &prm)
-  {
-    prm.add_parameter("Phreatic surface",
-                      phreatic_surface,
-                      "m; elevation of the water table, an expression of x (3D: x, y). The pores of soil below it are "
-                      "full, and there is no water outside the soil but that of \"Reservoir level\". Alternative to "
-                      "\"Region\". The vertical axis is y (3D: z). Empty: not given.",
-                      Patterns::Anything());
-    prm.add_parameter("Reservoir level",
-                      reservoir_level,
-                      "m; elevation of free water outside the soil, an expression of x (3D: x, y), such as if(x < 20, "
-                      "8, 0.5). Without \"Phreatic surface\" it also fills the pores below it. Empty: no free water.",
-                      Patterns::Anything());
-    seepage_start.add_parameters(prm);
   }
 
 
@@ -239,49 +163,6 @@ namespace scree
   }
 
 
-  void WaterParameters::check_without_soil() const
-  {
-    const WaterParameters defaults;
-    const std::string remedy = "this entry has no effect, as there is no soil: entry \"Bodies\" is none. Remove it.";
-    require_entry(conductivity_text == "auto", { "Water", "Hydraulic conductivity", conductivity_text }, remedy);
-    require_entry(
-        conductivity_law == defaults.conductivity_law, { "Water", "Conductivity law", conductivity_law }, remedy);
-    require_entry(grain_diameter == defaults.grain_diameter, { "Water", "Grain diameter", grain_diameter }, remedy);
-  }
-
-
-  void WaterParameters::check_grain_diameter() const
-  {
-    const std::string grains = "\"Grain diameter\" = " + number_text(grain_diameter);
-    require_entry(conductivity_text == "auto",
-                  { "Water", "Hydraulic conductivity", conductivity_text },
-                  "the drag follows from " + grains + ". Remove one of the two.");
-    require_entry(viscosity > 0,
-                  { "Water", "Viscosity", viscosity },
-                  "the drag of grains of " + grains +
-                      " needs it. Write 1e-3 for water, or \"Hydraulic conductivity\" in place of the diameter.");
-    require_entry(conductivity_law == WaterParameters().conductivity_law,
-                  { "Water", "Conductivity law", conductivity_law },
-                  "the drag follows from " + grains + ". Remove one of the two.");
-  }
-
-
-  void WaterParameters::check_air_entry(const unsigned int n_bodies) const
-  {
-    const auto require = [&](const bool possible, const std::string &remedy) {
-      require_entry(possible, { "Water", "Air entry pressure", air_entry_pressure }, remedy);
-    };
-    require(n_bodies > 0, "this entry has no effect, as there is no soil: entry \"Bodies\" is none. Remove it.");
-    require(point_sets_kind() == PointSets::double_point,
-            "single-point water does not leave the soil, and no air enters it. Remove the entry, or write "
-            "\"Point sets = double\".");
-    require(
-        !seepage_start.is_steady,
-        "the pores above the water table of \"Steady seepage\" would not be full. Remove one of the two entries, or "
-        "write the elevation as \"Phreatic surface\".");
-  }
-
-
   void WaterParameters::check_single_point() const
   {
     const WaterParameters defaults;
@@ -323,48 +204,6 @@ namespace scree
   }
 
 
-  PointSets WaterParameters::point_sets_kind() const
-  {
-    return point_sets == "single" ? PointSets::single_point : PointSets::double_point;
-  }
-
-
-  InitialPressure WaterParameters::initial_pressure_kind() const
-  {
-    return initial_pressure == "none" ? InitialPressure::none : InitialPressure::hydrostatic;
-  }
-
-
-  ConductivityLaw WaterParameters::conductivity_law_kind() const
-  {
-    return conductivity_law == "constant" ? ConductivityLaw::constant : ConductivityLaw::kozeny_carman;
-  }
-
-
-  bool WaterParameters::is_where_soil_is() const
-  {
-    return region == "same" && !has_levels();
-  }
-
-
-  bool WaterParameters::has_levels() const
-  {
-    return seepage_start.is_steady || !(phreatic_surface.empty() && reservoir_level.empty());
-  }
-
-
-  std::pair<std::string, std::string> WaterParameters::place() const
-  {
-    if (seepage_start.is_steady)
-      return { "Steady seepage", "true" };
-    if (!phreatic_surface.empty())
-      return { "Phreatic surface", phreatic_surface };
-    if (!reservoir_level.empty())
-      return { "Reservoir level", reservoir_level };
-    return { "Region", region };
-  }
-
-
   namespace
   {
     std::string below(const std::string &elevation, const unsigned int dim)
@@ -392,31 +231,4 @@ namespace scree
   }
 
 
-  void SeepageParameters::add_parameters(ParameterHandler &prm)
-  {
-    prm.add_parameter("Hydraulic conductivity",
-                      conductivity,
-                      "m/s; conductivity (Darcy) of this body at its initial porosity; 0: as in subsection Water.",
-                      Patterns::Double(0));
-  }
-
-
-  void SeepageParameters::check(const std::string &body, const WaterParameters *water) const
-  {
-    const std::string dry =
-        "this entry has no effect, as the file has no subsection Water. Add one, or remove the entry.";
-    require_entry(water != nullptr || conductivity == 0, { body, "Hydraulic conductivity", conductivity }, dry);
-  }
-
-
-  WaterParameters SeepageParameters::in_place_of(const WaterParameters &water) const
-  {
-    WaterParameters result = water;
-    if (conductivity > 0)
-      {
-        result.conductivity   = conductivity;
-        result.grain_diameter = 0;
-      }
-    return result;
-  }
 } // namespace scree

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/boundary/body_force.h>
-#include <scree/input/input_error.h>
+#include <scree/boundary/body_forces.h>
 #include <scree/input/case_entries.h>
 #include <scree/input/number_table.h>
 
 #include <deal.II/base/array_view.h>
-
-#include <algorithm>
 
 namespace scree
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/boundary/body_force.h>
+#include <scree/boundary/body_forces.h>
 #include <scree/input/expression.h>
-#include <scree/input/input_error.h>
 
 namespace scree
 {
@@ -54,8 +53,7 @@ namespace scree
             "Body force",
             text,
             "m/s^2; acceleration in addition to gravity, for verification. One expression of x, y (z) and t "
-            "per axis, separated by semicolons; empty: none.",
-            Patterns::Anything());
+            "per axis, separated by semicolons; empty: none.");
       }
       bool is_set() const override
       {

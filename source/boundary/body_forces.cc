@@ -1,74 +1,36 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/boundary/body_forces.h>
 
-#include <cmath>
+#include <map>
 
 namespace scree
 {
   using namespace dealii;
 
-  template <int dim>
-  BodyForces<dim>::BodyForces(const BackgroundGrid<dim> &grid,
-                              const std::vector<double> &gravity,
-                              const BodyForceParameters &parameters,
-                              const double mass_scaling)
-      : grid(grid)
-      , own_gravity(make_array_view(gravity))
-      , forces(parameters.make<dim>())
-      , scaling(mass_scaling)
-      , uniform(fall())
+  namespace
   {
-    for (const auto &force : forces)
-      if (!force->is_uniform())
-        varying.push_back(force.get());
+    /// Made at the first call, whichever source file registers first.
+    auto &kinds_of_body_force()
+    {
+      static std::map<std::string, std::unique_ptr<BodyForceEntries> (*)()> all;
+      return all;
+    }
+  } // namespace
+
+
+  void register_body_force(const std::string &name, std::unique_ptr<BodyForceEntries> (*make)())
+  {
+    kinds_of_body_force()[name] = make;
   }
 
 
-  template <int dim>
-  void BodyForces<dim>::set_step(const double time, const double time_step)
+  BodyForceParameters::BodyForceParameters()
   {
-    for (const auto &force : forces)
-      force->set_step(time, time_step);
-    sum_uniform();
+    for (const auto &[name, make] : kinds_of_body_force())
+      kinds.push_back(make());
   }
 
 
-  template <int dim>
-  void BodyForces<dim>::set_start()
-  {
-    for (const auto &force : forces)
-      force->set_start();
-    sum_uniform();
-  }
-
-
-  template <int dim>
-  void BodyForces<dim>::sum_uniform()
-  {
-    uniform = fall();
-    for (const auto &force : forces)
-      if (force->is_uniform())
-        uniform += force->at(Point<dim>()) / scaling;
-  }
-
-
-  template <int dim>
-  std::string BodyForces<dim>::text() const
-  {
-    std::string lines;
-    for (const auto &force : forces)
-      if (const std::string line = force->text(); !line.empty())
-        lines += (lines.empty() ? "" : "\n") + line;
-    return lines;
-  }
-
-
-  template <int dim>
-  double BodyForces<dim>::decay(const double time_step) const
-  {
-    return std::exp(-damping_rate * time_step);
-  }
-
-  template class BodyForces<2>;
-  template class BodyForces<3>;
+  template std::vector<std::unique_ptr<BodyForce<2>>> BodyForceParameters::make() const;
+  template std::vector<std::unique_ptr<BodyForce<3>>> BodyForceParameters::make() const;
 } // namespace scree

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/boundary/boundary_conditions.h>
-#include <scree/input/input_error.h>
-
-#include <cmath>
 
 namespace scree
 {
@@ -22,29 +19,11 @@ namespace scree
       if (text == "open")
         return { WallType::open, 0. };
       if (text.rfind("friction ", 0) == 0)
-        {
-          std::size_t end = 0;
-          double angle    = -1.;
-          const auto rest = Utilities::trim(text.substr(9));
-          try
-            {
-              angle = std::stod(rest, &end);
-            }
-          catch (const std::exception &)
-            {
-            }
-          if (end == rest.size() && angle >= 0. && angle < 90.)
-            return { WallType::friction, std::tan(angle * numbers::PI / 180.) };
-        }
+        if (const double angle = number_of(Utilities::trim(text.substr(9))); angle >= 0. && angle < 90.)
+          return { WallType::friction, std::tan(angle * numbers::PI / 180.) };
       throw EntryError(entry_name("Boundaries", name) + " = " + text + ": write one of: " + accepted_walls + '.');
     }
   } // namespace
-
-
-  BoundaryParameters::BoundaryParameters()
-      : FaceEntries{ "free slip", "free slip", "free slip", "free slip", "fixed", "open" }
-  {
-  }
 
 
   void BoundaryParameters::add_parameters(ParameterHandler &prm)
@@ -55,13 +34,6 @@ namespace scree
   }
 
 
-  void BoundaryParameters::check(const unsigned int dim) const
-  {
-    walls(3);
-    FaceEntries::check("Boundaries", dim, BoundaryParameters());
-  }
-
-
   std::vector<Wall> BoundaryParameters::walls(const unsigned int dim) const
   {
     const auto faces = names(dim), entries = texts(dim);
@@ -69,14 +41,6 @@ namespace scree
     for (unsigned int f = 0; f < faces.size(); ++f)
       result.push_back(wall_from_text(faces[f], entries[f]));
     return result;
-  }
-
-
-  template <int dim>
-  BoundaryConditions<dim>::BoundaryConditions(const BackgroundGrid<dim> &grid, const BoundaryParameters &parameters)
-      : grid(grid)
-      , wall_list(parameters.walls(dim))
-  {
   }
 
 
@@ -106,25 +70,6 @@ namespace scree
             }
         }
     return result;
-  }
-
-
-  template <int dim>
-  BearingFaces<dim> BoundaryConditions<dim>::bearing_faces(const std::uint8_t faces) const
-  {
-    const auto type = [this](const unsigned int face) { return wall_list[face].type; };
-    return BearingFaces<dim>(
-        faces,
-        [&](const unsigned int face) { return type(face) != WallType::open; },
-        [&](const unsigned int face) { return type(face) == WallType::fixed || type(face) == WallType::friction; });
-  }
-
-
-  template <int dim>
-  std::pair<std::string, bool> BoundaryConditions<dim>::face_crossed(const Point<dim> &location) const
-  {
-    const unsigned int face = nearest_face(grid, location);
-    return { FaceEntries::names(dim)[face], wall_list[face].type == WallType::open };
   }
 
 

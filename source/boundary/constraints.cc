@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/boundary/constraints.h>
-#include <scree/input/input_error.h>
 
-#include <algorithm>
 #include <tuple>
 
 namespace scree
@@ -49,44 +47,12 @@ namespace scree
 
 
   template <int dim>
-  void Constraints<dim>::add_inflow(const MovedByInflow &inflow, NodeConstraints<dim> &constraints) const
-  {
-    if (inflow.soil && !constraints.is_rigid)
-      constraints.soil_velocity = inflow.velocity;
-    if (!water_walls)
-      return;
-    constraints.water_velocity = inflow.velocity;
-    constraints.water_faces    = BearingFaces<dim>();
-    constraints.water_constraint.hold_all();
-  }
-
-
-  template <int dim>
-  void Constraints<dim>::hold_soil(const std::vector<char> &is_rigid)
-  {
-    rigid = is_rigid;
-    inflow_of_node.clear();
-    reinit();
-  }
-
-
-  template <int dim>
   void Constraints<dim>::set_inflows(const std::vector<unsigned int> &of_node,
                                      const std::vector<MovedByInflow> &all_inflows)
   {
     inflow_of_node = of_node;
     inflows        = all_inflows;
     reinit();
-  }
-
-
-  template <int dim>
-  void Constraints<dim>::set_inflow_velocity(const unsigned int inflow, const Tensor<1, dim> &velocity)
-  {
-    inflows[inflow].velocity = velocity;
-    for (unsigned int set = 0; set < inflow_of_set.size(); ++set)
-      if (inflow_of_set[set] == inflow)
-        add_inflow(inflows[inflow], sets[set]);
   }
 
 
@@ -134,89 +100,6 @@ namespace scree
         set_of_node[node] = set_of_gate;
   }
 
-
-  template <int dim>
-  unsigned int Constraints<dim>::add_set(const NodeConstraints<dim> &constraints,
-                                         const unsigned int inflow,
-                                         const std::uint8_t faces)
-  {
-    sets.push_back(constraints);
-    inflow_of_set.push_back(inflow);
-    faces_of_set.push_back(faces);
-    return sets.size() - 1;
-  }
-
-
-  template <int dim>
-  void Constraints<dim>::take_walls(const unsigned int node, const std::uint8_t faces, NodesAndSets &before)
-  {
-    const unsigned int set     = set_of_node[node];
-    const std::uint8_t left    = faces_of_set[set] & ~faces;
-    const auto [entry, is_new] = set_of_faces.emplace(left, free);
-    if (is_new && left != 0)
-      if (const NodeConstraints<dim> constraints = of_faces(left, false, false); constraints.any())
-        entry->second = add_set(constraints, free, left);
-    before.emplace_back(node, set);
-    set_of_node[node] = entry->second;
-  }
-
-
-  template <int dim>
-  void Constraints<dim>::give_back(NodesAndSets &before)
-  {
-    for (; !before.empty(); before.pop_back()) // A node may be there twice.
-      set_of_node[before.back().first] = before.back().second;
-  }
-
-
-  template <int dim>
-  void Constraints<dim>::release(const unsigned int node, const std::uint8_t faces)
-  {
-    take_walls(node, faces, released);
-  }
-
-
-  template <int dim>
-  void Constraints<dim>::hold_all()
-  {
-    give_back(released);
-  }
-
-
-  template <int dim>
-  void Constraints<dim>::cover(const std::vector<std::pair<unsigned int, std::uint8_t>> &nodes)
-  {
-    hold_all();
-    give_back(covered);
-    for (const auto &[node, faces] : nodes)
-      if (has_walls_alone(node))
-        take_walls(node, faces, covered);
-  }
-
-
-  template <int dim>
-  std::uint8_t Constraints<dim>::faces_closed_to_soil() const
-  {
-    std::uint8_t faces = 0;
-    for (unsigned int f = 0; f < 2 * dim; ++f)
-      faces |= (walls.walls()[f].type == WallType::open ? 0u : 1u) << f;
-    return faces;
-  }
-
-
-  template <int dim>
-  void Constraints<dim>::close_gate(std::unique_ptr<Region<dim>> region)
-  {
-    gate = std::move(region);
-    on_all_ranks(grid.communicator(), [&] { reinit(); });
-  }
-
-
-  template <int dim>
-  void Constraints<dim>::open_gate()
-  {
-    close_gate(nullptr);
-  }
 
   template class Constraints<2>;
   template class Constraints<3>;

@@ -84,9 +84,7 @@ namespace scree
     });
     const auto [entry, value] = parameters.surface.geometry();
     require_entry(Utilities::MPI::max(int(is_inside), communicator) == 1,
-                  parameters.surface.subsection,
-                  entry,
-                  value,
+                  { parameters.surface.subsection, entry, value },
                   "no part of the obstacle lies in the box of subsection Mesh. Move it (it is where the expression is "
                   "negative), or make the box larger.");
   }

@@ -1,55 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/boundary/wall_gaps.h>
-#include <scree/mixture/mixture.h>
-
-#include <algorithm>
-#include <limits>
 
 namespace scree
 {
   using namespace dealii;
-
-  template <int dim>
-  WallGaps<dim>::WallGaps(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints)
-      : grid(grid)
-      , constraints(constraints)
-      , closed_faces(constraints.closed_faces())
-  {
-    reinit();
-  }
-
-
-  template <int dim>
-  void WallGaps<dim>::reinit()
-  {
-    for (NodeVector &gap : gaps)
-      gap.reinit(grid.numbering().partitioner());
-    released.reinit(grid.numbering().partitioner());
-    closes.reinit(grid.numbering().partitioner());
-    closing.assign(grid.n_owned_nodes(), Tensor<1, dim>());
-    on_walls.clear();
-    for (unsigned int node = 0; node < grid.numbering().n_local(); ++node)
-      if ((grid.node_faces(node) & closed_faces) != 0)
-        on_walls.push_back(node);
-    clear();
-  }
-
-
-  template <int dim>
-  void WallGaps<dim>::clear()
-  {
-    constraints.hold_all();
-    for (const unsigned int node : on_walls)
-      {
-        for (NodeVector &gap : gaps)
-          gap.local_element(node) = far;
-        released.local_element(node) = 0.;
-        closes.local_element(node)   = 0.;
-        if (node < grid.n_owned_nodes())
-          closing[node] = Tensor<1, dim>();
-      }
-  }
-
 
   template <int dim>
   void WallGaps<dim>::add(const PointSet<dim> &points, const double spacing)
@@ -78,30 +32,6 @@ namespace scree
                 gap         = std::min(gap, (side == 1 ? lowest[a] : 1. - highest[a]) - reach);
               }
       }
-  }
-
-
-  template <int dim>
-  void WallGaps<dim>::add(const Mixture<dim> &mixture)
-  {
-    for (const MixtureCell<dim> &cell : mixture.cells())
-      if (cell.bulk_volume >= closures::full_cell_at_wall * cell.volume)
-        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
-          if (const unsigned int node = grid.nodes(cell.cell)[i]; grid.node_faces(node) != 0)
-            for (NodeVector &gap : gaps)
-              gap.local_element(node) = 0.;
-  }
-
-
-  template <int dim>
-  double WallGaps<dim>::slow(const unsigned int face, const double gravity) const
-  {
-    if (!constraints.has_water() && !constraints.is_fixed(face))
-      return 0.;
-    if (!constraints.has_water() && gravity == 0.)
-      return std::numeric_limits<double>::infinity(); // Nothing falls.
-    const double fall = constraints.has_water() ? closures::fall_of_wet_soil : closures::fall_onto_fixed_wall;
-    return speed_after_fall(fall, gravity, grid.cell_size());
   }
 
 

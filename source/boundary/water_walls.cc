@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/boundary/boundary_conditions.h>
 #include <scree/boundary/water_walls.h>
-#include <scree/input/input_error.h>
-
-#include <cmath>
 
 namespace scree
 {
@@ -23,32 +19,12 @@ namespace scree
       if (text == "drained")
         return { WaterWallType::drained, 0. };
       if (text.rfind("drained ", 0) == 0)
-        {
-          std::size_t end  = 0;
-          double pressure  = 0;
-          const auto rest  = Utilities::trim(text.substr(8));
-          bool is_a_number = false;
-          try
-            {
-              pressure    = std::stod(rest, &end);
-              is_a_number = end == rest.size() && std::isfinite(pressure);
-            }
-          catch (const std::exception &)
-            {
-            }
-          if (is_a_number)
-            return { WaterWallType::drained, pressure };
-        }
+        if (const double pressure = number_of(Utilities::trim(text.substr(8))); std::isfinite(pressure))
+          return { WaterWallType::drained, pressure };
       throw EntryError(entry_name("Boundaries/Water", name) + " = " + text + ": write one of: " + accepted_water_walls +
                        '.');
     }
   } // namespace
-
-
-  WaterBoundaryParameters::WaterBoundaryParameters()
-      : FaceEntries{ "impermeable", "impermeable", "impermeable", "impermeable", "impermeable", "drained" }
-  {
-  }
 
 
   void WaterBoundaryParameters::add_parameters(ParameterHandler &prm)
@@ -61,13 +37,6 @@ namespace scree
   }
 
 
-  void WaterBoundaryParameters::check(const unsigned int dim) const
-  {
-    walls(3);
-    FaceEntries::check("Boundaries/Water", dim, WaterBoundaryParameters());
-  }
-
-
   std::vector<WaterWall> WaterBoundaryParameters::walls(const unsigned int dim) const
   {
     const auto faces = names(dim), entries = texts(dim);
@@ -75,15 +44,6 @@ namespace scree
     for (unsigned int f = 0; f < faces.size(); ++f)
       result.push_back(water_wall_from_text(faces[f], entries[f]));
     return result;
-  }
-
-
-  template <int dim>
-  WaterBoundaryConditions<dim>::WaterBoundaryConditions(const BackgroundGrid<dim> &grid,
-                                                        const WaterBoundaryParameters &parameters)
-      : grid(grid)
-      , wall_list(parameters.walls(dim))
-  {
   }
 
 
@@ -104,26 +64,6 @@ namespace scree
 
 
   template <int dim>
-  BearingFaces<dim> WaterBoundaryConditions<dim>::bearing_faces(const std::uint8_t faces) const
-  {
-    return BearingFaces<dim>(
-        faces,
-        [&](const unsigned int face) { return !is_drained(face); },
-        [&](const unsigned int face) { return wall_list[face].type == WaterWallType::no_slip; });
-  }
-
-
-  template <int dim>
-  bool WaterBoundaryConditions<dim>::prescribes_pressure(const std::uint8_t faces) const
-  {
-    for (unsigned int f = 0; f < 2 * dim; ++f)
-      if ((faces >> f) & 1 && is_drained(f))
-        return true;
-    return false;
-  }
-
-
-  template <int dim>
   double WaterBoundaryConditions<dim>::pressure(const std::uint8_t faces) const
   {
     double sum     = 0;
@@ -137,23 +77,6 @@ namespace scree
     return n > 0 ? sum / n : 0.;
   }
 
-
-  template <int dim>
-  std::uint8_t WaterBoundaryConditions<dim>::closed_faces() const
-  {
-    std::uint8_t faces = 0;
-    for (unsigned int f = 0; f < 2 * dim; ++f)
-      faces |= (is_drained(f) ? 0u : 1u) << f;
-    return faces;
-  }
-
-
-  template <int dim>
-  std::pair<std::string, bool> WaterBoundaryConditions<dim>::face_crossed(const Point<dim> &location) const
-  {
-    const unsigned int face = nearest_face(grid, location);
-    return { FaceEntries::names(dim)[face], is_drained(face) };
-  }
 
   template class WaterBoundaryConditions<2>;
   template class WaterBoundaryConditions<3>;

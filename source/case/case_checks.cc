@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case/case_checks.h>
-#include <scree/input/input_error.h>
 #include <scree/materials/laws/mohr_coulomb.h>
-#include <scree/particles/region.h>
-#include <scree/seeding/water_seeding.h>
-#include <scree/transfer/transfer_parameters.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
+#include <scree/seeding/seeding.h>
 
 namespace scree
 {

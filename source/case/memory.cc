@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case/memory.h>
-#include <scree/seeding/water_seeding.h>
-
-#include <deal.II/base/mpi.h>
+#include <scree/seeding/seeding.h>
 
 #include <sys/resource.h>
 
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <functional>
-#include <limits>
 #include <sstream>
 
 namespace scree

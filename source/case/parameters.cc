@@ -1,21 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case/case_checks.h>
 #include <scree/case/parameters.h>
-#include <scree/geometry/raster.h>
-#include <scree/input/input_error.h>
-#include <scree/input/input_file.h>
 #include <scree/materials/laws/mohr_coulomb.h>
-#include <scree/seeding/seeding.h>
 
-#include <deal.II/base/utilities.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <set>
 #include <sstream>
-#include <utility>
-#include <vector>
 
 namespace scree
 {
@@ -160,17 +148,6 @@ namespace scree
   } // namespace
 
 
-  void BodyParameters::add_parameters(ParameterHandler &prm)
-  {
-    prm.enter_subsection(name);
-    seeding.add_parameters(prm);
-    seepage.add_parameters(prm);
-    material.add_parameters(prm);
-    initial_state.add_parameters(prm);
-    prm.leave_subsection();
-  }
-
-
   void BodyParameters::check(const std::vector<double> &gravity, const WaterParameters *water) const
   {
     seeding.check(name, gravity.size());
@@ -179,48 +156,6 @@ namespace scree
     initial_state.check(name, gravity);
     if (is_rigid())
       check_rigid();
-  }
-
-
-  void BodyParameters::check_rigid() const
-  {
-    require_entry(seeding.initial_velocity.empty(),
-                  { name, "Initial velocity", seeding.initial_velocity },
-                  "\"Material = rigid\" does not move. Remove one of the two.");
-    require_entry(initial_state.stress_kind() == InitialStress::none,
-                  { name + "/Initial state", "Type", initial_state.type },
-                  "the stress of \"Material = rigid\" is not known. Remove the entry.");
-  }
-
-
-  bool BodyParameters::is_rigid() const
-  {
-    return material.is_rigid();
-  }
-
-
-  double BodyParameters::initial_porosity() const
-  {
-    return seeding.initial_porosity < 0 ? make_material<2>(material)->initial_porosity() : seeding.initial_porosity;
-  }
-
-
-  double BodyParameters::bulk_density() const
-  {
-    return seeding.grain_density * (1. - initial_porosity());
-  }
-
-
-  double BodyParameters::k0() const
-  {
-    return initial_state.k0_ratio(material.chosen().sine_of_friction());
-  }
-
-
-  double BodyParameters::wave_speed() const
-  {
-    const auto law = make_material<2>(material);
-    return law->wave_speed(law->initial_bulk_modulus(initial_state.pressure), 0., bulk_density());
   }
 
 
@@ -251,14 +186,6 @@ namespace scree
                       "the displacement while the soil settles.",
                       Patterns::Double(1e-6, 10));
     prm.leave_subsection();
-  }
-
-
-  void SafetyParameters::check() const
-  {
-    require_entry(lower + tolerance < upper,
-                  { "Safety", "Upper factor", upper },
-                  "it must exceed \"Lower factor\" = " + number_text(lower) + " by more than the tolerance.");
   }
 
 
@@ -412,8 +339,7 @@ namespace scree
     prm.add_parameter("Output directory",
                       output_directory,
                       "Run folder; created if missing. The path is relative to the working directory. Paths of all "
-                      "other files are relative to the folder of the case file.",
-                      Patterns::Anything());
+                      "other files are relative to the folder of the case file.");
     prm.add_parameter("Gravity",
                       gravity,
                       "m/s^2; acceleration of gravity, one component per axis.",
@@ -431,8 +357,7 @@ namespace scree
     prm.add_parameter("Coordinate system",
                       coordinate_system,
                       "3D. Coordinate system of rasters and written maps, for instance EPSG:2056. Empty: that of the "
-                      "rasters, if one of them has a coordinate system or a .prj file.",
-                      Patterns::Anything());
+                      "rasters, if one of them has a coordinate system or a .prj file.");
     body_forces.add_parameters(prm);
     grid.add_parameters(prm);
     time_step.add_parameters(prm);
@@ -454,16 +379,6 @@ namespace scree
     safety.add_parameters(prm);
     output.add_parameters(prm);
     probes.add_parameters(prm);
-  }
-
-
-  void Parameters::declare_water(ParameterHandler &prm)
-  {
-    prm.enter_subsection("Water");
-    water.add_parameters(prm);
-    pressure.add_parameters(prm);
-    prm.leave_subsection();
-    water_boundaries.add_parameters(prm);
   }
 
 
@@ -592,54 +507,12 @@ namespace scree
   }
 
 
-  double Parameters::size_of_gravity() const
-  {
-    double square = 0;
-    for (const double component : gravity)
-      square += component * component;
-    return std::sqrt(square);
-  }
-
-
   double Parameters::wave_speed() const
   {
     double fastest = 0;
     for (const auto &body : bodies)
       fastest = std::max(fastest, body.wave_speed());
     return fastest;
-  }
-
-
-  CaseEntries Parameters::entries() const
-  {
-    CaseEntries result(handler);
-    for (const NamedFile &named : named_files)
-      result.set_file(named);
-    return result;
-  }
-
-
-  const std::string &Parameters::original() const
-  {
-    return file.text();
-  }
-
-
-  InputError Parameters::error(const EntryError &error) const
-  {
-    return file.error(error.what());
-  }
-
-
-  void Parameters::print(std::ostream &out)
-  {
-    handler.print_parameters(out, ParameterHandler::PRM);
-  }
-
-
-  void Parameters::print_json(std::ostream &out)
-  {
-    handler.print_parameters(out, ParameterHandler::JSON | ParameterHandler::KeepDeclarationOrder);
   }
 
 
@@ -719,16 +592,6 @@ namespace scree
     handler.set(entry, value);
     for (unsigned int s = 0; s < subsections.size(); ++s)
       handler.leave_subsection();
-  }
-
-
-  void Parameters::print_into(const std::string &folder, std::ostream &out)
-  {
-    for (const NamedFile &named : named_files)
-      set(named.subsection, named.entry, std::filesystem::relative(named.path, folder));
-    print(out);
-    for (const NamedFile &named : named_files)
-      set(named.subsection, named.entry, named.path);
   }
 
 

@@ -4,9 +4,7 @@
 #include <scree/input/input_file.h>
 #include <scree/version.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -24,9 +22,7 @@ namespace scree
       std::ofstream out(file);
       out << text;
       require_entry(bool(out.flush()),
-                    "",
-                    "Output directory",
-                    directory,
+                    { "", "Output directory", directory },
                     name + " cannot be written there. Name a folder in which you may write.");
     }
 

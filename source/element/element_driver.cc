@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 #include <scree/element/element_driver.h>
-#include <scree/materials/table.h>
 #include <scree/tensor/invariants.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
-#include <algorithm>
 #include <iomanip>
 
 using namespace dealii;

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 #include <scree/element/element_parameters.h>
-#include <scree/input/input_error.h>
 
 using namespace dealii;
 
@@ -40,10 +38,7 @@ namespace scree
                       "Vertical logarithmic strain at the end, compression positive, or shear strain.",
                       Patterns::Double(0, 5));
     prm.add_parameter("Number of steps", n_steps, "Number of equal strain increments.", Patterns::Integer(1));
-    prm.add_parameter("Output directory",
-                      output_directory,
-                      "Folder for table.txt, original.prm and parameters.prm.",
-                      Patterns::Anything());
+    prm.add_parameter("Output directory", output_directory, "Folder for table.txt, original.prm and parameters.prm.");
     material.add_parameters(prm);
   }
 
@@ -51,14 +46,12 @@ namespace scree
   void ElementParameters::check() const
   {
     require_entry(confining_pressure > 0,
-                  "",
-                  "Initial confining pressure",
-                  confining_pressure,
+                  { "", "Initial confining pressure", confining_pressure },
                   "it must be positive, the paths start from compression.");
-    require_entry(K0 > 0, "", "K0", K0, "it must be positive, the paths start from compression.");
+    require_entry(K0 > 0, { "", "K0", K0 }, "it must be positive, the paths start from compression.");
     material.check("");
     require_entry(
-        !material.is_rigid(), "", "Material", material.law, "a rigid point has no path. Write a law that deforms.");
+        !material.is_rigid(), { "", "Material", material.law }, "a rigid point has no path. Write a law that deforms.");
   }
 
 

@@ -3,19 +3,14 @@
 #include <scree/input/input_error.h>
 #include <scree/input/number_table.h>
 
-#include <deal.II/base/exceptions.h>
-
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 #include <ogrsf_frmts.h>
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <iterator>
 #include <limits>
@@ -23,7 +18,6 @@
 #include <optional>
 #include <set>
 #include <sstream>
-#include <utility>
 
 namespace scree
 {
@@ -49,12 +43,6 @@ namespace scree
       }
     };
   } // namespace
-
-  std::size_t Raster::n_missing() const
-  {
-    return std::count_if(values.begin(), values.end(), [](const double value) { return std::isnan(value); });
-  }
-
 
   std::pair<double, double> Raster::range() const
   {

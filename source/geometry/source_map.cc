@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/geometry/source_map.h>
-#include <scree/input/input_error.h>
-#include <scree/input/case_entries.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace scree
 {
@@ -27,16 +22,6 @@ namespace scree
                    outline,
                    "m; 3D. Areas on the map that enclose the body: polygons of a GeoPackage, GeoJSON file, shapefile "
                    "or other vector format of GDAL, or a text file of the corners x, y of one polygon, one per line.");
-  }
-
-
-  std::pair<std::string, std::string> SourceMapParameters::first() const
-  {
-    if (!thickness.empty())
-      return { "Thickness", thickness };
-    if (!upper_surface.empty())
-      return { "Upper surface", upper_surface };
-    return { "Outline", outline };
   }
 
 
@@ -145,48 +130,4 @@ namespace scree
   }
 
 
-  bool SourceMap::contains(const Point<3> &x) const
-  {
-    if (outline && !outline->contains({ x[0], x[1] }))
-      return false;
-    if (upper_surface && !(x[2] < upper_surface->value_at(x[0], x[1])))
-      return false;
-    const double part = thickness ? thickness->value_or_zero_at(x[0], x[1]) : 0.;
-    if (thickness && !(part > 0.))
-      return false;
-    // Less than a thickness above the ground is what would be below it by that much less.
-    return !ground || (ground->is_open(x) && (!thickness || !ground->is_open({ x[0], x[1], x[2] - part })));
-  }
-
-
-  double SourceMap::ground_between(const double x, const double y, const double lower, const double upper) const
-  {
-    if (!ground || ground->is_open({ x, y, lower }))
-      return lower;
-    if (!ground->is_open({ x, y, upper }))
-      return upper;
-    constexpr unsigned int n_halvings = 24;
-    double below = lower, above = upper;
-    for (unsigned int i = 0; i < n_halvings; ++i)
-      {
-        const double middle                                 = 0.5 * (below + above);
-        (ground->is_open({ x, y, middle }) ? above : below) = middle;
-      }
-    return above;
-  }
-
-
-  std::pair<double, double>
-  SourceMap::part_of_line(const double x, const double y, const double lower, const double upper) const
-  {
-    const std::pair<double, double> nothing{ lower, lower };
-    const double part = thickness ? thickness->value_or_zero_at(x, y) : 0.;
-    const double over = upper_surface ? upper_surface->value_at(x, y) : upper;
-    if ((thickness && !(part > 0.)) || !(over > lower) || (outline && !outline->contains({ x, y })))
-      return nothing;
-    double top = std::min(upper, over);
-    if (thickness)
-      top = std::min(top, part + ground_between(x, y, lower - part, upper - part));
-    return { ground_between(x, y, lower, upper), top };
-  }
 } // namespace scree

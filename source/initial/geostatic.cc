@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/initial/geostatic.h>
-#include <scree/input/input_error.h>
-#include <scree/seeding/water_seeding.h>
+#include <scree/seeding/seeding.h>
 #include <scree/tensor/invariants.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace scree
 {

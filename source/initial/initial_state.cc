@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/initial/initial_state.h>
-#include <scree/input/input_error.h>
-#include <scree/particles/region.h>
-
-#include <algorithm>
 
 namespace scree
 {
@@ -21,8 +17,7 @@ namespace scree
         "K0",
         k0,
         "Ratio of horizontal to vertical effective stress, from 0 to 10. auto: 1 - sin(phi) with the "
-        "friction angle of the law (Nor-Sand: the critical one; Tresca, Herschel-Bulkley: 0), 0.5 if it has none.",
-        Patterns::Anything());
+        "friction angle of the law (Nor-Sand: the critical one; Tresca, Herschel-Bulkley: 0), 0.5 if it has none.");
     prm.add_parameter("Pressure", pressure, "Pa; isotropic stress, compression positive.", Patterns::Double(0));
     prm.leave_subsection();
   }
@@ -49,20 +44,6 @@ namespace scree
   }
 
 
-  InitialStress InitialStateParameters::stress_kind() const
-  {
-    return type == "K0" ? InitialStress::k0 : type == "isotropic" ? InitialStress::isotropic : InitialStress::none;
-  }
-
-
-  double InitialStateParameters::k0_ratio(const std::optional<double> &sine_of_friction) const
-  {
-    if (k0 != "auto")
-      return number_of(k0);
-    return sine_of_friction ? 1. - *sine_of_friction : 0.5;
-  }
-
-
   void SettlingParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Settling");
@@ -79,24 +60,9 @@ namespace scree
     prm.add_parameter("Gate",
                       gate,
                       "Nodes where this expression of x, y (z), in m, is true are held until the release, such as x > "
-                      "1. Empty: none.",
-                      Patterns::Anything());
+                      "1. Empty: none.");
     prm.leave_subsection();
   }
 
 
-  void SettlingParameters::check(const std::vector<double> &gravity) const
-  {
-    const std::size_t dim = gravity.size();
-    require_entry(maximum_time == 0 || std::count(gravity.begin(), gravity.end(), 0.) < long(dim),
-                  { "Settling", "Maximum time", maximum_time },
-                  "without gravity nothing settles. Change entry \"Gravity\", or write 0.");
-    require_entry(gate.empty() || maximum_time > 0,
-                  { "Settling", "Gate", gate },
-                  "it holds only while the soil settles. Write a \"Maximum time\" above 0, or remove it.");
-    if (!gate.empty() && dim == 2)
-      Region<2>(entry_name("Settling", "Gate"), gate);
-    if (!gate.empty() && dim == 3)
-      Region<3>(entry_name("Settling", "Gate"), gate);
-  }
 } // namespace scree

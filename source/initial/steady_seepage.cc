@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/boundary/face_entries.h>
 #include <scree/initial/steady_seepage.h>
-#include <scree/input/input_error.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -14,12 +11,6 @@
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <map>
 
 namespace scree
 {
@@ -623,14 +614,6 @@ namespace scree
 
 
   template <int dim>
-  bool SeepageSurvey<dim>::is_beyond(const Point<dim> &x, const unsigned int face) const
-  {
-    const unsigned int a = face / 2;
-    return face % 2 == 0 ? x[a] < grid.lower_corner()[a] : x[a] > grid.upper_corner()[a];
-  }
-
-
-  template <int dim>
   std::optional<double> SeepageSurvey<dim>::head_of_wall(const unsigned int face, const double height) const
   {
     const bool has_head = !std::isnan(heads[face]);
@@ -642,16 +625,6 @@ namespace scree
       return no_head; // Above it water may leave.
     const double pressure = walls.pressure(1u << face);
     return pressure == 0. ? no_head : height + pressure / unit_weight;
-  }
-
-
-  std::string SeepageReport::text(const unsigned int dim) const
-  {
-    const std::string unit = dim == 2 ? " m^2/s" : " m^3/s";
-    return "Steady seepage: " + number_text(inflow) + unit + " in, " + number_text(outflow_in_air) +
-           " out through faces in air" + (std::isnan(exit_height) ? "" : " up to " + number_text(exit_height) + " m") +
-           ", " + number_text(outflow_below) + " out below given heads; " + std::to_string(n_iterations) +
-           " iterations" + (has_converged ? "" : ", not converged. Use the pressure with care");
   }
 
 
@@ -683,13 +656,6 @@ namespace scree
       if (cell[a] < first[a] || cell[a] >= first[a] + n[a])
         return { no_head, {} };
     return { heads->value(x), heads->gradient(x) };
-  }
-
-
-  template <int dim>
-  bool SeepageField<dim>::is_open(const Point<dim> &x) const
-  {
-    return !(pressure_head(x).first >= 0.);
   }
 
 

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/case_entries.h>
-#include <scree/input/input_error.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <boost/property_tree/json_parser.hpp>
 
-#include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -77,11 +74,7 @@ namespace scree
     /// Whether the two words are the same or numbers of the same value.
     bool same_word(const std::string &first, const std::string &second)
     {
-      if (first == second)
-        return true;
-      char *end_of_first, *end_of_second;
-      const double a = std::strtod(first.c_str(), &end_of_first), b = std::strtod(second.c_str(), &end_of_second);
-      return !first.empty() && !second.empty() && *end_of_first == '\0' && *end_of_second == '\0' && a == b;
+      return first == second || number_of(first) == number_of(second);
     }
   } // namespace
 
@@ -113,26 +106,6 @@ namespace scree
       result += entry.subsection + separator + entry.name + separator + single_blanks(entry.value) + separator +
                 entry.checksum + '\n';
     return result;
-  }
-
-
-  void CaseEntries::set_file(const NamedFile &file)
-  {
-    for (CaseEntry &entry : entries)
-      if (entry.subsection == file.subsection && entry.name == file.entry)
-        {
-          entry.value    = file.written;
-          entry.checksum = file.checksum;
-        }
-  }
-
-
-  const CaseEntry *CaseEntries::find(const std::string &subsection, const std::string &name) const
-  {
-    const auto found = std::find_if(entries.begin(), entries.end(), [&](const CaseEntry &entry) {
-      return entry.subsection == subsection && entry.name == name;
-    });
-    return found == entries.end() ? nullptr : &*found;
   }
 
 

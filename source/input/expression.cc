@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/expression.h>
-#include <scree/input/input_error.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <cctype>
-#include <cmath>
 #include <iostream>
 #include <regex>
 
@@ -93,29 +91,6 @@ namespace scree
       return "";
     }
   } // namespace
-
-
-  template <int dim>
-  Expression<dim>::Expression(const std::string &name, const unsigned int n_components, const bool with_time)
-      : FunctionParser<dim>(n_components)
-      , name(name)
-      , with_time(with_time)
-  {
-  }
-
-
-  template <int dim>
-  double Expression<dim>::value(const Point<dim> &x, const unsigned int component) const
-  {
-    const double result = FunctionParser<dim>::value(x, component);
-    if (!std::isfinite(result))
-      throw ValueError(name + ": it is " + (std::isnan(result) ? "not a number" : "infinite") + " at " +
-                       (dim == 1 ? "t = " : "") + number_text(x) + (dim == 1 ? " s" : " m") +
-                       (with_time ? ", t = " + number_text(this->get_time()) + " s" : "") +
-                       ". Write an expression that is a number wherever it is asked for, for instance with if(" +
-                       (dim == 1 ? 't' : 'x') + " > 0, ..., ...).");
-    return result;
-  }
 
 
   template <int dim>

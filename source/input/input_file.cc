@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/input/input_error.h>
 #include <scree/input/input_file.h>
 
 #include <deal.II/base/table.h>
@@ -7,7 +6,6 @@
 
 #include <boost/property_tree/json_parser.hpp>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -445,14 +443,6 @@ namespace scree
       if (statement.kind == Kind::set && statement.path == subsection && statement.name == entry)
         result = statement.value;
     return result;
-  }
-
-
-  bool InputFile::sets(const std::string &subsection, const std::string &entry) const
-  {
-    return std::any_of(statements.begin(), statements.end(), [&](const Statement &statement) {
-      return statement.kind == Kind::set && statement.path == subsection && statement.name == entry;
-    });
   }
 
 

@@ -2,7 +2,6 @@
 #include <scree/input/input_error.h>
 #include <scree/input/number_table.h>
 
-#include <algorithm>
 #include <cmath>
 #include <regex>
 #include <sstream>

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/input/input_error.h>
 #include <scree/io/checkpoint.h>
 #include <scree/version.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
 
-#include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <iomanip>
-#include <limits>
-#include <map>
-#include <memory>
 #include <sstream>
 
 namespace scree
@@ -28,7 +20,7 @@ namespace scree
 
     const std::string name_of_manifest = "manifest", name_of_step = "step-", name_of_entries = "entries",
                       name_of_state = "state", name_of_points = "points.", name_of_mesh = "mesh.";
-    const std::string format_line    = "Scree checkpoint, format 17";
+    const std::string format_line    = "Scree checkpoint, format 18";
     const std::string checksum_label = "checksum: ";
 
     std::uint64_t checksum_of(const std::string &content)

@@ -2,9 +2,6 @@
 #include <scree/input/input_error.h>
 #include <scree/io/files.h>
 
-#include <deal.II/base/mpi.h>
-#include <deal.II/base/utilities.h>
-
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -12,15 +9,12 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <ctime>
-#include <deque>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
-#include <utility>
 
 namespace scree
 {
@@ -150,12 +144,6 @@ namespace scree
     // Some disks cannot sync a folder, and need not: then errno is EINVAL.
     if (const Descriptor descriptor(folder, O_RDONLY | O_DIRECTORY); !descriptor.sync() && errno != EINVAL)
       throw error_of_writing(folder, 0);
-  }
-
-
-  RowFile::RowFile(const std::string &file)
-      : file(file)
-  {
   }
 
 
@@ -366,43 +354,6 @@ namespace scree
   }
 
 
-  void BackgroundWriter::start(FileJob job)
-  {
-    while (jobs.size() > 1)
-      end_stage();
-    jobs.push_back(std::move(job));
-    if (jobs.size() == 1)
-      begin_job();
-  }
-
-
-  void BackgroundWriter::look()
-  {
-    while (!jobs.empty())
-      {
-        const int is_ready = running.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-        if ((n_ranks > 1 ? Utilities::MPI::min(is_ready, communicator) : is_ready) == 0)
-          return;
-        end_stage();
-      }
-  }
-
-
-  void BackgroundWriter::finish()
-  {
-    while (!jobs.empty())
-      end_stage();
-  }
-
-
-  void BackgroundWriter::begin_job()
-  {
-    begin = std::chrono::steady_clock::now();
-    stage = 0;
-    begin_stage();
-  }
-
-
   void BackgroundWriter::begin_stage()
   {
     // A single rank does not wait between the stages.
@@ -415,22 +366,6 @@ namespace scree
       const auto freed_here = std::move(stages);
       return fault_of_stages(freed_here);
     });
-  }
-
-
-  void BackgroundWriter::end_stage()
-  {
-    std::string fault = running.get();
-    if (n_ranks > 1)
-      {
-        const unsigned int rank  = Utilities::MPI::this_mpi_process(communicator);
-        const unsigned int first = Utilities::MPI::min(fault.empty() ? n_ranks : rank, communicator);
-        fault                    = first < n_ranks ? Utilities::MPI::broadcast(communicator, fault, first) : "";
-      }
-    if (fault.empty() && stage < jobs.front().stages.size())
-      begin_stage();
-    else
-      end_job(fault);
   }
 
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
-#include <map>
 #include <sstream>
 
 namespace scree
@@ -51,8 +50,7 @@ namespace scree
     prm.add_parameter("Write",
                       write,
                       "true: maps of the soil on the columns of cells are written with each graphics output, for "
-                      "instance thickness, largest speed and arrival time. 3D: rasters. 2D: tables along x.",
-                      Patterns::Bool());
+                      "instance thickness, largest speed and arrival time. 3D: rasters. 2D: tables along x.");
     prm.add_parameter("Least thickness",
                       least_thickness,
                       "m; thickness from which the arrival time and the speed of the soil are recorded.",
@@ -128,27 +126,6 @@ namespace scree
   }
 
 
-  Screen OutputParameters::screen_kind() const
-  {
-    static const std::map<std::string, Screen> table{ { "progress", Screen::progress },
-                                                      { "statistics", Screen::statistics },
-                                                      { "nothing", Screen::nothing } };
-    return table.at(screen);
-  }
-
-
-  Pictures OutputParameters::graphics_kind() const
-  {
-    return graphics == "none" ? Pictures::none : graphics == "points" ? Pictures::points : Pictures::points_and_grid;
-  }
-
-
-  double OutputParameters::interval_of_statistics() const
-  {
-    return statistics_interval > 0 ? statistics_interval : interval;
-  }
-
-
   namespace
   {
     /// The first multiple of `interval` after `time`; never, if there is no interval.
@@ -157,22 +134,7 @@ namespace scree
       return interval > 0 ? (std::floor(time / interval * (1. + 1e-12)) + 1.) * interval
                           : std::numeric_limits<double>::infinity();
     }
-
-    /// Times that differ by rounding only are one.
-    bool reached(const double time, const double due)
-    {
-      return time >= due * (1. - 1e-12);
-    }
   } // namespace
-
-
-  OutputTimes::OutputTimes(const OutputParameters &parameters, const double end_time)
-      : picture_interval(parameters.interval)
-      , row_interval(parameters.interval_of_statistics())
-      , checkpoint_interval(parameters.checkpoint_interval)
-      , end_time(end_time)
-  {
-  }
 
 
   void OutputTimes::begin(const double time)
@@ -194,29 +156,5 @@ namespace scree
       if (time <= first + 0.1 * largest_step)
         last = std::max(last, time);
     return std::min(last, end_time);
-  }
-
-
-  bool OutputTimes::is_end(const double time) const
-  {
-    return reached(time, end_time);
-  }
-
-
-  bool OutputTimes::picture_is_due(const double time) const
-  {
-    return reached(time, picture);
-  }
-
-
-  bool OutputTimes::row_is_due(const double time) const
-  {
-    return reached(time, row);
-  }
-
-
-  bool OutputTimes::checkpoint_is_due(const double time) const
-  {
-    return checkpoint_interval > 0 && reached(time, checkpoint);
   }
 } // namespace scree

@@ -2,14 +2,8 @@
 #include <scree/io/progress.h>
 #include <scree/step/step_report.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <numeric>
-#include <utility>
 
 namespace scree
 {
@@ -97,22 +91,6 @@ namespace scree
   }
 
 
-  Progress::Progress(RunFolder &folder, const double start_time, const double end_time, const std::string &place_column)
-      : folder(folder)
-      , start_time(start_time)
-      , end_time(end_time)
-      , place_column(place_column)
-  {
-  }
-
-
-  bool Progress::is_due() const
-  {
-    constexpr double seconds_between_lines = 5.;
-    return clock.wall_time() - last_line >= seconds_between_lines;
-  }
-
-
   void Progress::report(const double time,
                         const unsigned long long step,
                         const double time_step,
@@ -159,18 +137,6 @@ namespace scree
         text += (text.empty() ? "" : ", ") + format(share < 1 ? "%s (below 1 %%" : "%s (%.0f %%", name, share) +
                 (text.empty() ? " of steps)" : ")");
     return text;
-  }
-
-
-  double Progress::percent(const StepLimit limit) const
-  {
-    return n_steps() > 0 ? 100. * counts[static_cast<unsigned int>(limit)] / n_steps() : 0.;
-  }
-
-
-  unsigned long long Progress::n_steps() const
-  {
-    return std::accumulate(counts.begin(), counts.end(), 0ull);
   }
 
 

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/input/input_error.h>
-#include <scree/io/files.h>
 #include <scree/io/run_folder.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <iomanip>
-#include <iostream>
 #include <optional>
 #include <sstream>
 
@@ -59,20 +53,6 @@ namespace scree
   }
 
 
-  std::string RunFolder::open()
-  {
-    std::error_code error;
-    std::filesystem::create_directories(file("solution"), error);
-    if (!error)
-      log_file.open(file("log.txt"), std::ios::app);
-    if (error || !log_file)
-      return "the run cannot write there: " + (error ? error.message() : "no file can be written there") +
-             ". Name a folder in which you may write.";
-    lock = std::make_unique<FolderLock>(file("lock"));
-    return lock->refusal();
-  }
-
-
   void RunFolder::remove_old_results()
   {
     if (writer)
@@ -91,30 +71,6 @@ namespace scree
   }
 
 
-  void RunFolder::write(const std::string &name, const std::string &text) const
-  {
-    if (writer)
-      write_whole_file(file(name), text);
-  }
-
-
-  bool RunFolder::is_present() const
-  {
-    return std::filesystem::is_directory(file("solution"));
-  }
-
-
-  void RunFolder::require_presence() const
-  {
-    throw_on_all_ranks(!writer || is_present()
-                           ? ""
-                           : entry_message({ "", "Output directory", path },
-                                           "it was removed or renamed while the run wrote to it. Leave it alone until "
-                                           "the run has ended, and start anew."),
-                       communicator);
-  }
-
-
   void RunFolder::try_to_write(const std::string &name, const std::function<void()> &write)
   {
     if (!writer)
@@ -130,32 +86,6 @@ namespace scree
         if (is_present()) // or else require_presence() reports it
           tell_once(name, std::string(error.what()) + " The run goes on, and tries again each time.");
       }
-  }
-
-
-  void RunFolder::log(const std::string &lines)
-  {
-    record(lines);
-    if (writer && to_screen)
-      std::cout << lines << std::endl;
-  }
-
-
-  void RunFolder::record(const std::string &lines)
-  {
-    if (!writer)
-      return;
-    log_file << lines << std::endl;
-    if (!log_file)
-      tell_once("log.txt", error_of_writing(file("log.txt"), lines.size() + 1).what());
-    log_file.clear();
-  }
-
-
-  void RunFolder::tell_once(const std::string &name, const std::string &fault)
-  {
-    if (refused.insert(name).second)
-      std::cerr << "scree: " + fault + '\n' << std::flush;
   }
 
 

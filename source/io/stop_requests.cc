@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/io/stop_requests.h>
 
-#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <filesystem>

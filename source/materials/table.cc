@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
-#include <scree/input/input_error.h>
 #include <scree/materials/table.h>
 
-#include <algorithm>
 
 using namespace dealii;
 
@@ -48,26 +45,11 @@ namespace scree
   } // namespace
 
 
-  MaterialParameters::MaterialParameters()
-  {
-    for (const RegisteredLaw &one : registered_laws())
-      all[one.name] = one.copy(*one.entries);
-  }
-
-
   MaterialParameters::MaterialParameters(const MaterialParameters &other)
       : law(other.law)
   {
     for (const auto &[name, entries] : other.all)
       all[name] = registered(name).copy(*entries);
-  }
-
-
-  MaterialParameters &MaterialParameters::operator=(MaterialParameters other)
-  {
-    std::swap(law, other.law);
-    std::swap(all, other.all);
-    return *this;
   }
 
 
@@ -103,12 +85,6 @@ namespace scree
   }
 
 
-  void MaterialParameters::check(const std::string &subsection) const
-  {
-    chosen().check(path(subsection));
-  }
-
-
   bool MaterialParameters::divide_strength(const double factor)
   {
     return all.at(registered(law).name)->divide_strength(factor);
@@ -121,20 +97,6 @@ namespace scree
   }
 
 
-  void MaterialParameters::throw_too_stiff(const std::string &subsection, const std::string &remedy) const
-  {
-    const LawEntry entry = chosen().stiffest();
-    throw EntryError(entry_message({ path(subsection), entry.name, number_text(entry.value) }, remedy));
-  }
-
-
-  std::string MaterialParameters::modulus_text(const std::string &subsection) const
-  {
-    const LawEntry modulus = chosen().modulus();
-    return entry_name(path(subsection), modulus.name) + " = " + number_text(modulus.value);
-  }
-
-
   template <int dim>
   std::unique_ptr<Material<dim>> make_material(const MaterialParameters &parameters)
   {
@@ -144,30 +106,6 @@ namespace scree
       return registered(parameters.law).make_3d(parameters.chosen());
   }
 
-
-  template <int dim>
-  PlaceVariableValues<dim>::PlaceVariableValues(const PlaceVariable &variable, const std::string &subsection)
-      : variable(variable)
-      , name(entry_name(subsection, variable.entry) + " = " + variable.expression)
-      , expression(
-            parse_expression<dim>(entry_name(subsection, variable.entry), variable.expression, 1, false, "5e3 - 2e3*y"))
-  {
-  }
-
-
-  template <int dim>
-  void PlaceVariableValues<dim>::set(const Point<dim> &place, const double depth, double *internal_variables) const
-  {
-    const double value = expression->value(place) + variable.gradient * depth;
-    const auto fault   = [&](const std::string &remedy) {
-      return ValueError(name + ": the value at " + number_text(place) + " m is " + number_text(value) + ". " + remedy);
-    };
-    if (!(value > 0))
-      throw fault("Write an expression that is positive in the whole body.");
-    if (value > variable.largest)
-      throw fault("Beyond " + number_text(variable.largest) + ", " + variable.remedy);
-    internal_variables[variable.number] = value;
-  }
 
   template class PlaceVariableValues<2>;
   template class PlaceVariableValues<3>;

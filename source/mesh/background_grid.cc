@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/input/input_error.h>
 #include <scree/mesh/background_grid.h>
 
-#include <deal.II/base/mpi.h>
-#include <deal.II/base/utilities.h>
 #include <deal.II/grid/grid_generator.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
 
 namespace scree
 {
@@ -145,28 +138,6 @@ namespace scree
   }
 
 
-  Basis GridParameters::basis_kind() const
-  {
-    static const std::map<std::string, Basis> table{ { "spline", Basis::spline }, { "linear", Basis::linear } };
-    return table.at(basis);
-  }
-
-
-  long GridParameters::n_cells_along(const unsigned int axis) const
-  {
-    return std::lround((upper_corner[axis] - lower_corner[axis]) / cell_size);
-  }
-
-
-  double GridParameters::n_cells() const
-  {
-    double n = 1;
-    for (unsigned int a = 0; a < upper_corner.size(); ++a)
-      n *= n_cells_along(a);
-    return n;
-  }
-
-
   bool GridParameters::is_adaptive() const
   {
     constexpr double few = 2e4;
@@ -229,13 +200,6 @@ namespace scree
 
 
   template <int dim>
-  void BackgroundGrid<dim>::distribute_nodes()
-  {
-    nodes_of_mesh.distribute(cells);
-  }
-
-
-  template <int dim>
   void BackgroundGrid<dim>::append_blocks(const Point<dim> &x, const Tensor<1, dim> &path, Blocks &blocks) const
   {
     const auto block_at = [&](const Point<dim> &y) {
@@ -255,18 +219,6 @@ namespace scree
     for (unsigned int i = n; i > 0; --i)
       blocks.push_back(block_at(x + double(i) / n * path));
     blocks.push_back(first);
-  }
-
-
-  template <int dim>
-  Blocks BackgroundGrid<dim>::fine_blocks() const
-  {
-    Blocks blocks;
-    for (const auto &cell : cells.cells())
-      if (cells.is_owned(cell))
-        blocks.push_back(cell.number >> dim);
-    make_unique(blocks);
-    return blocks;
   }
 
 

@@ -8,20 +8,6 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  const typename CubicWeights<dim>::Along &CubicWeights<dim>::points()
-  {
-    static const Along result = [] {
-      const QGauss<1> rule(n_1d);
-      Along points;
-      for (unsigned int q = 0; q < n_1d; ++q)
-        points[q] = rule.point(q)[0];
-      return points;
-    }();
-    return result;
-  }
-
-
-  template <int dim>
   void CubicWeights<dim>::add(const Simplex<dim> &simplex)
   {
     static const QWitherdenVincentSimplex<dim> rule(dim == 2 ? 4 : 5); // cubics along all axes: degree 6, 9

@@ -1,30 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/geometry/open_part.h>
 #include <scree/mesh/cut_cells.h>
-#include <scree/mesh/background_grid.h>
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/quadrature_lib.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <utility>
-
 namespace scree
 {
   using namespace dealii;
-
-  template <int dim>
-  CutCells<dim>::CutCells(const BackgroundGrid<dim> &grid, const RigidBoundary<dim> &ground, const double thinnest)
-      : grid(grid)
-      , ground(ground)
-      , thinnest(thinnest)
-      , unit_cube(simplices_of_cube(Point<dim>(), 1.))
-  {
-    reinit();
-  }
-
 
   template <int dim>
   CutFacet<dim> &CutCells<dim>::facet_of(CutCell<dim> &cut, const Point<dim> &middle)
@@ -166,18 +148,6 @@ namespace scree
       return;
     entry_of_cell[cell] = cut_cells.size();
     cut_cells.push_back(std::move(cut));
-  }
-
-
-  template <int dim>
-  void CutCells<dim>::reinit()
-  {
-    entry_of_cell.assign(grid.triangulation().n_active_cells(), none);
-    cut_cells.clear();
-    all_segments.clear();
-    for (const auto &cell : grid.fine_cells().cells())
-      if (grid.fine_cells().is_owned(cell))
-        look_at(cell.index);
   }
 
 

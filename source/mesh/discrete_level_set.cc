@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/input/input_error.h>
 #include <scree/mesh/discrete_level_set.h>
-
-#include <deal.II/base/utilities.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace scree
 {
@@ -46,46 +39,6 @@ namespace scree
           corner_offset[v] += (v >> a & 1) * strides[a];
       }
     reinit();
-  }
-
-
-  template <int dim>
-  bool DiscreteLevelSet<dim>::place(const Tensor<1, dim> &displacement)
-  {
-    const CellPlace<dim> before = whole_cells;
-    for (unsigned int a = 0; a < dim; ++a)
-      {
-        const double cells = displacement[a] / grid.cell_size();
-        whole_cells[a]     = static_cast<int>(std::floor(cells));
-        part_of_cell[a]    = cells - whole_cells[a];
-      }
-    return whole_cells != before;
-  }
-
-
-  template <int dim>
-  void DiscreteLevelSet<dim>::reinit(const Tensor<1, dim> &displacement)
-  {
-    place(displacement);
-    look();
-  }
-
-
-  template <int dim>
-  void DiscreteLevelSet<dim>::move_to(const Tensor<1, dim> &displacement)
-  {
-    if (place(displacement))
-      look();
-  }
-
-
-  template <int dim>
-  void DiscreteLevelSet<dim>::look()
-  {
-    entry_of_cell.assign(grid.triangulation().n_active_cells(), none);
-    corners.clear();
-    least.clear();
-    on_all_ranks(grid.communicator(), [&] { sample(); });
   }
 
 
@@ -178,19 +131,6 @@ namespace scree
 
 
   template <int dim>
-  double DiscreteLevelSet<dim>::distance_of(const unsigned int cell,
-                                            const Point<dim> &place,
-                                            const Point<dim> &x,
-                                            const double enough) const
-  {
-    if (!is_near(cell))
-      return reach();
-    const double seen = view(cell, place).distance;
-    return seen >= enough || is_moving() ? seen : std::max(seen, surface.view(x, grid.cell_size()).distance);
-  }
-
-
-  template <int dim>
   std::optional<Point<dim>> DiscreteLevelSet<dim>::thin_place() const
   {
     const double width = grid.cell_size();
@@ -267,34 +207,6 @@ namespace scree
 
 
   template <int dim>
-  bool RigidBoundary<dim>::moves_near(const unsigned int cell) const
-  {
-    return any_moves && std::any_of(all_parts.begin(), all_parts.end(), [cell](const GroundPart<dim> &part) {
-             return part.velocity != nullptr && part.samples->is_near(cell);
-           });
-  }
-
-
-  template <int dim>
-  unsigned int RigidBoundary<dim>::n_near(const unsigned int cell) const
-  {
-    return std::count_if(all_parts.begin(), all_parts.end(), [cell](const GroundPart<dim> &part) {
-      return part.samples->is_near(cell);
-    });
-  }
-
-
-  template <int dim>
-  double RigidBoundary<dim>::least_distance(const unsigned int cell) const
-  {
-    double least = std::numeric_limits<double>::infinity();
-    for (const GroundPart<dim> &part : all_parts)
-      least = std::min(least, part.samples->least_distance(cell));
-    return least;
-  }
-
-
-  template <int dim>
   unsigned int RigidBoundary<dim>::nearest_part(const unsigned int cell, const Point<dim> &place) const
   {
     unsigned int nearest = 0;
@@ -306,24 +218,6 @@ namespace scree
             distance = of_part;
             nearest  = p;
           }
-    return nearest;
-  }
-
-
-  template <int dim>
-  SurfaceView<dim> RigidBoundary<dim>::view(const unsigned int cell, const Point<dim> &place) const
-  {
-    const unsigned int part = all_parts.size() == 1 ? 0 : nearest_part(cell, place);
-    return all_parts[part].samples->view(cell, place);
-  }
-
-  template <int dim>
-  Batch RigidBoundary<dim>::distances(const unsigned int cell, const std::array<Batch, dim> &places) const
-  {
-    Batch nearest = simd::broadcast<Batch>(std::numeric_limits<double>::infinity());
-    for (const GroundPart<dim> &part : all_parts)
-      if (part.samples->is_near(cell))
-        nearest = simd::min<Batch>(nearest, part.samples->distances(cell, places));
     return nearest;
   }
 

@@ -2,15 +2,10 @@
 #include <scree/deal_ii_versions.h>
 #include <scree/input/input_error.h>
 #include <scree/mesh/fine_cells.h>
-#include <scree/particles/cell_places.h>
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/utilities.h>
-#include <deal.II/grid/grid_tools.h>
 
-#include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <optional>
 
@@ -169,21 +164,6 @@ namespace scree
 
 
   template <int dim>
-  void FineCells<dim>::reinit()
-  {
-    list_cells();
-    make_table();
-    if (triangulation.n_global_active_cells() == cells_of_box.n_cells())
-      return; // All cells are inner ones.
-    for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned() && holds_nodes(cell))
-        if (!is_inner(cell_list[entry_of_index[cell->active_cell_index()]].place))
-          cell->set_user_index(static_cast<unsigned int>(CellUse::edge));
-    exchange_uses();
-  }
-
-
-  template <int dim>
   void FineCells<dim>::list_cells()
   {
     const CellsOfBox<dim> &box = cells_of_box;
@@ -244,31 +224,6 @@ namespace scree
     return none;
   }
 
-
-  template <int dim>
-  bool FineCells<dim>::is_inner(const CellPlace<dim> &place) const
-  {
-    for (unsigned int i = 0; i < unsigned(Utilities::pow(3, dim)); ++i)
-      {
-        CellPlace<dim> neighbour = place;
-        for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= 3)
-          neighbour[a] += int(rest % 3) - 1;
-        if (cells_of_box.contains(neighbour) && find(neighbour) == none)
-          return false;
-      }
-    return true;
-  }
-
-
-  template <int dim>
-  void FineCells<dim>::exchange_uses() const
-  {
-    using CellIterator = typename Triangulation<dim>::active_cell_iterator;
-    GridTools::exchange_cell_data_to_ghosts<unsigned int, parallel::distributed::Triangulation<dim>>(
-        triangulation,
-        [](const CellIterator &cell) { return std::optional<unsigned int>(cell->user_index()); },
-        [](const CellIterator &cell, const unsigned int &use) { cell->set_user_index(use); });
-  }
 
   template class FineCells<2>;
   template class FineCells<3>;

@@ -2,10 +2,7 @@
 #include <scree/mesh/node_numbering.h>
 #include <scree/deal_ii_versions.h>
 
-#include <deal.II/base/mpi.h>
-#include <deal.II/grid/grid_tools.h>
 
-#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -25,13 +22,6 @@ namespace scree
       return walls;
     }
   } // namespace
-
-
-  template <int dim>
-  NodeNumbering<dim>::NodeNumbering(const Basis basis)
-      : basis(basis)
-  {
-  }
 
 
   template <int dim>
@@ -61,22 +51,6 @@ namespace scree
         node += power * (along - place[a]);
       }
     return { place, node };
-  }
-
-
-  template <int dim>
-  typename NodeNumbering<dim>::Homes NodeNumbering<dim>::number_own(const FineCells<dim> &cells,
-                                                                    unsigned int &n_owned) const
-  {
-    const unsigned int n_nodes = n_nodes_per_cell();
-    Homes homes(cells.cells().size() * n_nodes, none);
-    n_owned = 0;
-    for (unsigned int c = 0; c < cells.cells().size(); ++c)
-      if (const Cell &cell = cells.cells()[c]; cells.is_owned(cell))
-        for (unsigned int i = 0; i < n_nodes; ++i)
-          if (home(cell.place, i, cells.box().n).first == cell.place)
-            homes[std::size_t(c) * n_nodes + i] = n_owned++;
-    return homes;
   }
 
 

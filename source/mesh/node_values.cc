@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/mesh/node_values.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <map>
-
 namespace scree
 {
   using namespace dealii;

@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/geometry/level_set.h>
 #include <scree/initial/geostatic.h>
-#include <scree/initial/steady_seepage.h>
-#include <scree/materials/table.h>
 #include <scree/model/scene.h>
 #include <scree/schemes/two_phase_scheme.h>
 #include <scree/seeding/seeding.h>
-#include <scree/seeding/water_seeding.h>
 #include <scree/tensor/invariants.h>
-#include <scree/tensor/principal.h>
 
 #include <deal.II/base/geometry_info.h>
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace scree
 {
@@ -251,34 +242,6 @@ namespace scree
 
 
   template <int dim>
-  void Scene<dim>::hold_rigid_nodes()
-  {
-    constraints.hold_soil(rigid_nodes());
-    if (walls_alone)
-      walls_alone->reinit();
-  }
-
-
-  template <int dim>
-  void Scene<dim>::close_gate(const std::string &region)
-  {
-    const auto make_region = [&] { return std::make_unique<Region<dim>>(entry_name("Settling", "Gate"), region); };
-    constraints.close_gate(make_region());
-    if (walls_alone)
-      walls_alone->close_gate(make_region());
-  }
-
-
-  template <int dim>
-  void Scene<dim>::open_gate()
-  {
-    constraints.open_gate();
-    if (walls_alone)
-      walls_alone->open_gate();
-  }
-
-
-  template <int dim>
   void Scene<dim>::reinit()
   {
     grid.distribute_nodes();
@@ -335,37 +298,6 @@ namespace scree
     for (const Inflow<dim> &inflow : inflows)
       constraints.set_inflow_velocity(number++, inflow.velocity());
     uncover_walls();
-  }
-
-
-  template <int dim>
-  void Scene<dim>::uncover_walls()
-  {
-    if (std::none_of(obstacles.begin(), obstacles.end(), [](const auto &obstacle) { return obstacle.is_moving; }))
-      return;
-    std::vector<std::pair<unsigned int, std::uint8_t>> covered;
-    for (const Obstacle<dim> &obstacle : obstacles)
-      if (obstacle.is_moving)
-        obstacle.add_covered_nodes(covered);
-    constraints.cover(covered);
-    if (walls_alone)
-      walls_alone->cover(covered);
-  }
-
-
-  template <int dim>
-  void Scene<dim>::move_obstacles(const double time_step)
-  {
-    for (Obstacle<dim> &obstacle : obstacles)
-      obstacle.end_step(time_step);
-  }
-
-
-  template <int dim>
-  void Scene<dim>::include_obstacles(Speeds &speeds, const double time) const
-  {
-    for (const Obstacle<dim> &obstacle : obstacles)
-      speeds.include_point(obstacle.velocity_at(time).norm());
   }
 
 
@@ -678,43 +610,6 @@ namespace scree
 
 
   template <int dim>
-  void Scene<dim>::fill_entrant(const Entrant &entrant,
-                                const WaterPhase<dim> &phase,
-                                const std::array<double, (1 << dim)> &pressure,
-                                std::vector<double> &properties) const
-  {
-    const auto &layout        = phase.layout;
-    properties[layout.mass]   = phase.density * entrant.volume;
-    properties[layout.volume] = entrant.volume;
-    for (unsigned int v = 0; v < pressure.size(); ++v)
-      {
-        properties[layout.pressure] += pressure[v] * GeometryInfo<dim>::d_linear_shape_function(entrant.place, v);
-        const Tensor<1, dim> slope = GeometryInfo<dim>::d_linear_shape_function_gradient(entrant.place, v);
-        for (unsigned int a = 0; a < dim; ++a)
-          properties[layout.pressure_gradient + a] += pressure[v] * slope[a] / grid.cell_size();
-      }
-  }
-
-
-  template <int dim>
-  void Scene<dim>::hold_at_inflows()
-  {
-    if (inflows.empty())
-      return;
-    std::vector<unsigned int> inflow_of_node(grid.numbering().n_local(), Constraints<dim>::free);
-    std::vector<typename Constraints<dim>::MovedByInflow> moved;
-    for (const Inflow<dim> &inflow : inflows)
-      {
-        for (unsigned int node = 0; node < inflow_of_node.size(); ++node)
-          if (inflow.is_open && inflow.moves(node))
-            inflow_of_node[node] = moved.size();
-        moved.push_back({ Tensor<1, dim>(), inflow.brings_soil });
-      }
-    constraints.set_inflows(inflow_of_node, moved);
-  }
-
-
-  template <int dim>
   void Scene<dim>::include_inflows(Speeds &speeds) const
   {
     for (const Inflow<dim> &inflow : inflows)
@@ -725,20 +620,6 @@ namespace scree
             if (body.name == inflow.body)
               speeds.include_wave(body.wave_speed(body.material->initial_bulk_modulus(0.), 0.));
         }
-  }
-
-
-  template <int dim>
-  std::vector<std::string> Scene<dim>::texts_of_inflows() const
-  {
-    std::vector<std::string> texts;
-    for (const Inflow<dim> &inflow : inflows)
-      texts.push_back("Inflow " + inflow.name + ": " + number_text(inflow.area()) + (dim == 2 ? " m" : " m^2") +
-                      " are open; " + std::to_string(inflow.places().size()) + " points a layer of " + inflow.body);
-    if (rain)
-      texts.push_back("Rain: on " + number_text(rain->area()) + (dim == 2 ? " m" : " m^2") + ", in drops of " +
-                      number_text(rain->volume()) + (dim == 2 ? " m^2" : " m^3"));
-    return texts;
   }
 
 

@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/particles/partition.h>
-#include <scree/deal_ii_versions.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace scree
 {
@@ -52,34 +46,6 @@ namespace scree
     const double now = thread_time();
     add(finished, now - last);
     last = now;
-  }
-
-
-  template <int dim>
-  void Partition<dim>::resume()
-  {
-    last = thread_time();
-  }
-
-
-  template <int dim>
-  double Partition<dim>::number_of_points() const
-  {
-    double n_points = 0;
-    for (const PointSet<dim> *points : sets)
-      n_points += points->n_points();
-    return n_points;
-  }
-
-
-  template <int dim>
-  double Partition<dim>::contacts() const
-  {
-    double sum = 0;
-    for (const PointSet<dim> *points : sets)
-      for (const auto &cell : points->cells())
-        sum += cell.n_points * points->costs().of_contacts(cell.cell);
-    return sum;
   }
 
 
@@ -238,13 +204,6 @@ namespace scree
     duration_of_fit = durations[1];
   }
 
-
-  template <int dim>
-  double Partition<dim>::imbalance()
-  {
-    collect();
-    return sum_of_mean > 0. ? sum_of_largest / sum_of_mean : 1.;
-  }
 
   template class Partition<2>;
   template class Partition<3>;

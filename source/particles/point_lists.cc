@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/particles/cell_places.h>
 #include <scree/particles/point_lists.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace scree
 {
@@ -20,48 +18,6 @@ namespace scree
       return inside;
     }
   } // namespace
-
-
-  template <int dim>
-  TableCell<dim>::TableCell(const Iterator &iterator)
-      : iterator(iterator)
-      , index(iterator->active_cell_index())
-      , corner(iterator->vertex(0))
-  {
-    neighbours.fill(CellTable<dim>::none - 1);
-    // The mesh's first vertex is the lower corner of the box.
-    const Point<dim> lower = iterator->get_triangulation().get_vertices()[0];
-    CellPlace<dim> place;
-    for (unsigned int a = 0; a < dim; ++a)
-      {
-        width[a] = iterator->vertex(1 << a)[a] - corner[a];
-        place[a] = static_cast<int>(std::lround((corner[a] - lower[a]) / width[a]));
-      }
-    number = curve_number<dim>(place);
-  }
-
-
-  template <int dim>
-  void CellTable<dim>::clear()
-  {
-    cells.clear();
-    numbers.clear();
-  }
-
-
-  template <int dim>
-  unsigned int CellTable<dim>::number_of(const Iterator &cell)
-  {
-    if (numbers.empty())
-      numbers.assign(cell->get_triangulation().n_active_cells(), none);
-    unsigned int &number = numbers[cell->active_cell_index()];
-    if (number == none)
-      {
-        number = cells.size();
-        cells.emplace_back(cell);
-      }
-    return number;
-  }
 
 
   template <int dim>
@@ -101,14 +57,6 @@ namespace scree
   template struct TableCell<3>;
   template class CellTable<2>;
   template class CellTable<3>;
-
-
-  template <int dim>
-  PointLists<dim>::PointLists(Particles::ParticleHandler<dim> &handler, CellTable<dim> &table)
-      : handler(handler)
-      , table(table)
-  {
-  }
 
 
   template <int dim>
@@ -166,22 +114,6 @@ namespace scree
     slots.swap(new_slots);
     entrants.clear();
     point_to_records();
-  }
-
-
-  template <int dim>
-  const typename PointLists<dim>::Entrant *PointLists<dim>::append_cell(const FilledCell &cell,
-                                                                        const unsigned int *first_slot,
-                                                                        const Entrant *entrant,
-                                                                        const Entrant *end)
-  {
-    new_slots.insert(new_slots.end(), first_slot, first_slot + cell.n_points);
-    unsigned int n_points = cell.n_points;
-    for (; entrant != end && entrant->number == cell.number; ++entrant, ++n_points)
-      new_slots.push_back(entrant->slot);
-    if (n_points > 0)
-      new_filled.push_back({ cell.number, cell.in_table, n_points });
-    return entrant;
   }
 
 

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/deal_ii_versions.h>
 #include <scree/particles/point_set.h>
-#include <scree/simd/records.h>
 
-#include <deal.II/base/mpi.h>
-#include <deal.II/base/utilities.h>
 #include <deal.II/distributed/tria_base.h>
-#include <deal.II/grid/cell_id.h>
 
-#include <algorithm>
 #include <ctime>
 #include <utility>
 
@@ -21,65 +15,6 @@ namespace scree
     timespec time;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
     return time.tv_sec + 1e-9 * time.tv_nsec;
-  }
-
-
-  void CellCosts::reinit(const unsigned int n_cells)
-  {
-    cells.assign(n_cells, Cell());
-    is_wanted = is_timed = false;
-  }
-
-
-  void CellCosts::time_next_pass()
-  {
-    is_wanted = !cells.empty();
-  }
-
-
-  void CellCosts::add(const unsigned int cell, const double seconds)
-  {
-    Cell &own = cells[cell];
-    own.sum += seconds;
-    own.largest = std::max(own.largest, seconds);
-    ++own.n_measurements;
-  }
-
-
-  double CellCosts::of_point(const unsigned int cell, const double otherwise) const
-  {
-    if (cell >= cells.size() || cells[cell].n_measurements == 0)
-      return otherwise;
-    const Cell &own = cells[cell];
-    return own.n_measurements == 1 ? own.sum : (own.sum - own.largest) / (own.n_measurements - 1);
-  }
-
-
-  void CellCosts::add_contacts(const unsigned int cell, const unsigned int n_points, const double seconds)
-  {
-    cells[cell].contacts += seconds / n_points;
-  }
-
-
-  double CellCosts::of_contacts(const unsigned int cell) const
-  {
-    return cell < cells.size() && cells[cell].n_measurements > 0 ? cells[cell].contacts / cells[cell].n_measurements
-                                                                 : 0.;
-  }
-
-
-  template <int dim>
-  PointExchange<dim>::PointExchange(const Triangulation<dim> &triangulation)
-      : mesh(triangulation)
-  {
-  }
-
-
-  template <int dim>
-  void PointExchange<dim>::add(const CellIterator &cell, PointRecord<dim> &record)
-  {
-    record.cell = cell->id().template to_binary<dim>();
-    emigrants[cell->subdomain_id()].push_back(record);
   }
 
 
@@ -161,24 +96,6 @@ namespace scree
 
   template <int dim>
   PointSet<dim>::~PointSet() = default;
-
-
-  template <int dim>
-  void PointSet<dim>::sort()
-  {
-    particle_handler.sort_particles_into_subdomains_and_cells();
-    n_moved = 0;
-    list_all_cells();
-    set_places(); // as hand_over() does: those of deal.II 9.6 and later differ in the last digit
-  }
-
-
-  template <int dim>
-  void PointSet<dim>::hand_over()
-  {
-    const int disorder = static_cast<int>(update_places());
-    hand_over(static_cast<Disorder>(Utilities::MPI::max(disorder, communicator_of(mesh))));
-  }
 
 
   template <int dim>
@@ -269,61 +186,6 @@ namespace scree
 
 
   template <int dim>
-  void PointSet<dim>::hand_on(const unsigned int to, Record &record)
-  {
-    const CellIterator &cell = table[to].iterator;
-    if (cell->is_locally_owned())
-      {
-        insert(to, record);
-        return;
-      }
-    emigrants.add(cell, record);
-  }
-
-
-  template <int dim>
-  unsigned int PointSet<dim>::insert_into(const unsigned int number,
-                                          const Point<dim> &location,
-                                          const types::particle_index id,
-                                          const ArrayView<const double> &properties)
-  {
-    const auto place = table[number].template place_of<double>(location);
-    Point<dim> reference_location;
-    std::copy(place.begin(), place.end(), &reference_location[0]);
-    return particle_handler.insert_particle(location, reference_location, id, table[number].iterator, properties)
-        ->get_local_index();
-  }
-
-
-  template <int dim>
-  void PointSet<dim>::insert(const unsigned int number, const Record &record)
-  {
-    const unsigned int slot = insert_into(number, record.location, record.id, record.properties);
-    lists.insert(number, slot);
-  }
-
-
-  template <int dim>
-  void PointSet<dim>::add(const typename Triangulation<dim>::active_cell_iterator &cell,
-                          const Point<dim> &location,
-                          const types::particle_index id,
-                          const std::vector<double> &properties)
-  {
-    const unsigned int number = table.number_of(cell);
-    const unsigned int slot   = insert_into(number, location, id, make_array_view(properties));
-    lists.insert(number, slot);
-  }
-
-
-  template <int dim>
-  void PointSet<dim>::finish_adding()
-  {
-    if (lists.has_entrants())
-      lists.update();
-  }
-
-
-  template <int dim>
   void PointSet<dim>::hand_over(const Disorder disorder)
   {
     if (disorder != Disorder::none)
@@ -341,16 +203,6 @@ namespace scree
         lift();
         put_down();
       }
-  }
-
-
-  template <int dim>
-  bool PointSet<dim>::is_in_inner_cells() const
-  {
-    const auto &filled = lists.filled_cells();
-    return std::all_of(filled.begin(), filled.end(), [this](const auto &cell) {
-      return use_of(table[cell.in_table].iterator) == CellUse::inner;
-    });
   }
 
 
@@ -438,26 +290,6 @@ namespace scree
     particle_handler.update_cached_numbers();
   }
 
-
-  template <int dim>
-  void PointSet<dim>::list_all_cells()
-  {
-    lose_points_outside();
-    lists.list_all();
-    at_edge = !is_in_inner_cells();
-  }
-
-
-  template <int dim>
-  std::vector<types::particle_index> PointSet<dim>::ids(const unsigned int cell) const
-  {
-    const auto &pool                   = particle_handler.get_property_pool();
-    const ConstCellPoints<dim> &points = lists.cells()[cell];
-    std::vector<types::particle_index> result;
-    for (unsigned int p = 0; p < points.n_points; ++p)
-      result.push_back(pool.get_id(points.slots[p]));
-    return result;
-  }
 
   template class PointSet<2>;
   template class PointSet<3>;

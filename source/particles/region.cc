@@ -3,11 +3,6 @@
 #include <scree/particles/region.h>
 
 #include <deal.II/base/geometry_info.h>
-#include <deal.II/base/mpi.h>
-#include <deal.II/base/utilities.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace scree
 {

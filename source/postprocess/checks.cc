@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/input/input_error.h>
 #include <scree/postprocess/checks.h>
-#include <scree/postprocess/measures.h>
 #include <scree/tensor/invariants.h>
 #include <scree/tensor/vector.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <limits>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace scree
 {
@@ -54,19 +44,6 @@ namespace scree
       return normal;
     }
   } // namespace
-
-
-  template <int dim>
-  RunChecks<dim>::RunChecks(const BackgroundGrid<dim> &grid,
-                            const Tensor<1, dim> &gravity,
-                            const DiscreteLevelSet<dim> *bed,
-                            RunFolder &folder)
-      : grid(grid)
-      , gravity(gravity)
-      , bed(bed)
-      , folder(folder)
-  {
-  }
 
 
   template <int dim>
@@ -345,16 +322,6 @@ namespace scree
 
 
   template <int dim>
-  BalanceChecks<dim>::BalanceChecks(const BackgroundGrid<dim> &grid, const BodyForces<dim> &forces)
-      : grid(grid)
-      , gravity(forces.gravity())
-      , energy_is_closed(forces.is_gravity_alone())
-      , mass_scaling(forces.mass_scaling())
-  {
-  }
-
-
-  template <int dim>
   void BalanceChecks<dim>::look(const std::list<SoilBody<dim>> &bodies,
                                 const std::list<WaterPhase<dim>> &water,
                                 const RunBalance<dim> &local,
@@ -426,24 +393,6 @@ namespace scree
     work      = work_now;
     last_time = time;
     motion    = balance.motion;
-  }
-
-
-  template <int dim>
-  double BalanceChecks<dim>::least_energy() const
-  {
-    constexpr double of_a_cell = 1e-3; // a fall of this part of the cell size
-    return of_a_cell * (soil_mass + water_mass) * gravity.norm() * grid.cell_size();
-  }
-
-
-  template <int dim>
-  double BalanceChecks<dim>::released_energy() const
-  {
-    // Motion and elasticity of the start, fall, work. Scenes at rest release next to nothing.
-    const double stored   = start_energy - start_kinetic - start_potential; // elastic
-    const double set_free = start_kinetic + start_potential - least_potential + largest_work;
-    return set_free > least_energy() || gravity.norm() == 0. ? set_free + stored : 0.;
   }
 
 

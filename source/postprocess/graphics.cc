@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/mesh/background_grid.h>
 #include <scree/postprocess/graphics.h>
 #include <scree/tensor/invariants.h>
 #include <scree/tensor/vector.h>
-
-#include <deal.II/base/data_out_base.h>
-
-#include <algorithm>
-#include <sstream>
 
 namespace scree
 {
@@ -383,42 +377,6 @@ namespace scree
     return job;
   }
 
-
-  template <int dim>
-  void Graphics<dim>::add(const std::string &series,
-                          std::vector<TimeAndFile> &pictures,
-                          const double time,
-                          const std::shared_ptr<Picture> &picture,
-                          Files &files) const
-  {
-    const std::string name = series + '_' + Utilities::int_to_string(pictures.size(), 5);
-    pictures.emplace_back(time, name + ".pvtu");
-    files.pictures.emplace_back(folder + name, picture);
-    if (rank == 0) // It alone writes them.
-      files.series.push_back(series_file(series, pictures));
-  }
-
-
-  template <int dim>
-  FileContent Graphics<dim>::series_file(const std::string &series, const std::vector<TimeAndFile> &pictures) const
-  {
-    std::ostringstream text;
-    DataOutBase::write_pvd_record(text, pictures);
-    return { folder + series + ".pvd", text.str() };
-  }
-
-
-  template <int dim>
-  void Graphics<dim>::cut() const
-  {
-    std::vector<FileContent> files;
-    // Named, since GCC 13 takes a list in the loop for a dangling reference.
-    const auto all = { std::make_pair("points", &point_files), { "water", &water_files }, { "grid", &grid_files } };
-    for (const auto &[series, pictures] : all)
-      if (rank == 0 && !pictures->empty())
-        files.push_back(series_file(series, *pictures));
-    write_whole_files(files);
-  }
 
   template class Graphics<2>;
   template class Graphics<3>;

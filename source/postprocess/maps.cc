@@ -1,40 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/geometry/raster.h>
-#include <scree/io/run_folder.h>
 #include <scree/postprocess/maps.h>
 #include <scree/tensor/vector.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <limits>
 
 namespace scree
 {
   using namespace dealii;
-
-  template <int dim>
-  Maps<dim>::Maps(const MapParameters &parameters,
-                  const MapFrame &frame,
-                  const TimeLabel &time_label,
-                  const BackgroundGrid<dim> &grid,
-                  const RunFolder &folder)
-      : parameters(parameters)
-      , frame(frame)
-      , time_label(time_label)
-      , grid(grid)
-      , folder(folder)
-      , columns(grid)
-  {
-    if (!parameters.write)
-      return;
-    for (Map *map : { &thickness, &mass, &largest_thickness, &largest_speed, &largest_pressure })
-      map->assign(columns.size(), 0.);
-    arrival_time.assign(columns.size(), -1.);
-  }
-
 
   template <int dim>
   void Maps<dim>::sample(const std::list<SoilBody<dim>> &bodies, const double time)
@@ -105,15 +75,6 @@ namespace scree
 
 
   template <int dim>
-  std::function<void()> Maps<dim>::writing(const double time) const
-  {
-    if (!parameters.write || !folder.is_writer())
-      return {};
-    return [this, of_time = '_' + time_label(time), all = sheets()] { write(of_time, all); };
-  }
-
-
-  template <int dim>
   void Maps<dim>::write(const std::string &of_time, const std::vector<Sheet> &all) const
   {
     std::filesystem::create_directories(folder.file("maps"));
@@ -133,24 +94,6 @@ namespace scree
         add_map(file, sheet, files);
       }
     write_whole_files(files);
-  }
-
-
-  template <int dim>
-  std::string Maps<dim>::table(const std::vector<Sheet> &all) const
-  {
-    std::vector<std::string> heads{ "x (m)" };
-    for (const Sheet &sheet : all)
-      heads.push_back(sheet.name + " (" + sheet.unit + ')');
-    std::string text = csv_head(heads);
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      {
-        std::vector<double> row{ columns.middle(c)[0] };
-        for (const Sheet &sheet : all)
-          row.push_back(sheet.values[c]);
-        text += csv_row(row);
-      }
-    return text;
   }
 
 

@@ -2,17 +2,9 @@
 #include <scree/postprocess/measures.h>
 #include <scree/tensor/invariants.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
-#include <deal.II/grid/grid_tools.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <iterator>
-#include <limits>
-#include <optional>
-#include <utility>
 
 namespace scree
 {
@@ -180,29 +172,6 @@ namespace scree
 
   template struct PointSums<2>;
   template struct PointSums<3>;
-
-
-  template <int dim>
-  CellColumns<dim>::CellColumns(const BackgroundGrid<dim> &grid)
-      : grid(grid)
-  {
-    for (unsigned int a = 0; a < dim; ++a)
-      n[a] = std::lround((grid.upper_corner()[a] - grid.lower_corner()[a]) / grid.cell_size());
-  }
-
-
-  template <int dim>
-  std::size_t CellColumns<dim>::size() const
-  {
-    return dim == 3 ? n[0] * n[1] : n[0];
-  }
-
-
-  template <int dim>
-  double CellColumns<dim>::area() const
-  {
-    return Utilities::fixed_power<dim - 1>(grid.cell_size());
-  }
 
 
   template <int dim>

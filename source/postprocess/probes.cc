@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/input/input_error.h>
 #include <scree/postprocess/graphics.h>
-#include <scree/postprocess/measures.h>
 #include <scree/postprocess/probes.h>
 #include <scree/tensor/invariants.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
-#include <deal.II/base/utilities.h>
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <limits>
-#include <set>
 
 namespace scree
 {
@@ -42,61 +34,6 @@ namespace scree
       return all.data() + place * stride;
     }
   };
-
-
-  template <int dim>
-  PlaceValues<dim>::PlaceValues(const BackgroundGrid<dim> &grid, const std::vector<Point<dim>> &places)
-      : grid(grid)
-      , place_list(places)
-  {
-    for (unsigned int i = 0; i < places.size(); ++i)
-      for (unsigned int n = 0; n < Utilities::fixed_power<dim>(3u); ++n)
-        {
-          CellPlace cell;
-          for (unsigned int a = 0, rest = n; a < dim; ++a, rest /= 3)
-            cell[a] = static_cast<int>(std::floor((places[i][a] - grid.lower_corner()[a]) / grid.cell_size())) +
-                      static_cast<int>(rest % 3) - 1;
-          places_near_cell[cell].push_back(i);
-        }
-  }
-
-
-  template <int dim>
-  std::vector<std::string> PlaceValues<dim>::names_of_soil()
-  {
-    std::vector<std::string> names;
-    for (unsigned int a = 0; a < dim; ++a)
-      names.push_back(std::string("Velocity ") + "xyz"[a] + " (m/s)");
-    for (const std::string component : { "xx", "yy", "zz", "xy", "xz", "yz" })
-      if (dim == 3 || (component != "xz" && component != "yz"))
-        names.push_back("Effective stress " + component + " (Pa)");
-    names.push_back("Mean effective stress (Pa)");
-    names.push_back("Porosity (-)");
-    return names;
-  }
-
-
-  template <int dim>
-  std::vector<std::string> PlaceValues<dim>::names_of_water()
-  {
-    std::vector<std::string> names{ "Pore pressure (Pa)" };
-    for (unsigned int a = 0; a < dim; ++a)
-      names.push_back(std::string("Water velocity ") + "xyz"[a] + " (m/s)");
-    return names;
-  }
-
-
-  template <int dim>
-  const std::vector<unsigned int> &PlaceValues<dim>::near(const ConstCellPoints<dim> &cell) const
-  {
-    static const std::vector<unsigned int> none;
-    CellPlace key;
-    for (unsigned int a = 0; a < dim; ++a)
-      key[a] = static_cast<int>(std::lround((cell.location_of(0)[a] - grid.lower_corner()[a]) / grid.cell_size() -
-                                            cell.reference_location_of(0)[a]));
-    const auto found = places_near_cell.find(key);
-    return found == places_near_cell.end() ? none : found->second;
-  }
 
 
   template <int dim>
@@ -208,37 +145,6 @@ namespace scree
 
   template class PlaceValues<2>;
   template class PlaceValues<3>;
-
-
-  template <int dim>
-  WallForces<dim>::WallForces(const BackgroundGrid<dim> &grid,
-                              const BoundaryConditions<dim> &walls,
-                              const WaterBoundaryConditions<dim> *water_walls)
-      : grid(grid)
-      , is_wet(water_walls != nullptr)
-  {
-    for (unsigned int f = 0; f < 2 * dim; ++f)
-      if (walls.walls()[f].type != WallType::open || (is_wet && !water_walls->is_drained(f)))
-        faces.push_back(f);
-  }
-
-
-  template <int dim>
-  std::vector<std::string> WallForces<dim>::names() const
-  {
-    std::vector<std::string> result;
-    const std::vector<std::string> of_face = FaceEntries::names(dim);
-    for (const unsigned int face : faces)
-      {
-        for (const std::string phase : { " soil ", " water " })
-          if (is_wet || phase == " soil ")
-            for (unsigned int a = 0; a < dim; ++a)
-              result.push_back(of_face[face] + phase + "xyz"[a] + " (N)");
-        if (is_wet)
-          result.push_back(of_face[face] + " pressure " + "xyz"[face / 2] + " (N)");
-      }
-    return result;
-  }
 
 
   template <int dim>
@@ -392,13 +298,11 @@ namespace scree
     prm.add_parameter(
         "Places",
         places,
-        "m; places whose state is written with each row of statistics. Format: NAME: x, y; NAME: x, y; ...",
-        Patterns::Anything());
+        "m; places whose state is written with each row of statistics. Format: NAME: x, y; NAME: x, y; ...");
     prm.add_parameter(
         "Lines",
         lines,
-        "m; lines along which the state is written with each graphics output. Format: NAME: x, y to x, y; ...",
-        Patterns::Anything());
+        "m; lines along which the state is written with each graphics output. Format: NAME: x, y to x, y; ...");
     prm.add_parameter("Places a line",
                       places_a_line,
                       "Number of places on each line, equally spaced, ends included.",
@@ -406,22 +310,18 @@ namespace scree
     prm.add_parameter("Verticals",
                       verticals,
                       "m; places on the ground above which the height of the soil surface and the water level are "
-                      "written with each row of statistics. Format: NAME: x; ... (3D: NAME: x, y; ...).",
-                      Patterns::Anything());
+                      "written with each row of statistics. Format: NAME: x; ... (3D: NAME: x, y; ...).");
     prm.add_parameter("Front thickness",
                       front_thickness,
                       "m; thickness that defines the fronts. The smallest and largest x at which soil and water are "
                       "this thick are written with each row of statistics. 0: none.",
                       Patterns::Double(0));
-    prm.add_parameter("Wall forces",
-                      wall_forces,
-                      "true: the force on each face of the box is written with each row of statistics.",
-                      Patterns::Bool());
+    prm.add_parameter(
+        "Wall forces", wall_forces, "true: the force on each face of the box is written with each row of statistics.");
     prm.add_parameter("Displacement",
                       displacement,
                       "true: the graphics output has the displacement of the soil points since the start. It is always "
-                      "there if the soil settles.",
-                      Patterns::Bool());
+                      "there if the soil settles.");
     prm.leave_subsection();
   }
 
@@ -607,33 +507,6 @@ namespace scree
     group.tables.push_back(&tables.emplace_back(folder, "probe_" + name));
   }
 
-
-  template <int dim>
-  typename Probes<dim>::Rows Probes<dim>::state_at(const PlaceValues<dim> &places, const ProbedState<dim> &state) const
-  {
-    Rows rows      = has_soil ? places.of_soil(state.bodies) : Rows(places.places().size());
-    const Rows wet = has_water ? places.of_water(state.water) : Rows(rows.size());
-    for (unsigned int i = 0; i < rows.size(); ++i)
-      rows[i].insert(rows[i].end(), wet[i].begin(), wet[i].end());
-    return rows;
-  }
-
-
-  template <int dim>
-  void Probes<dim>::write(const ProbedState<dim> &state, const bool of_pictures)
-  {
-    for (Group &group : groups)
-      if (group.of_pictures == of_pictures && !group.tables.empty())
-        {
-          Rows rows = group.rows(state);
-          for (auto &row : rows)
-            row.insert(row.begin(), state.time);
-          std::vector<std::string> columns{ "Time (s)" };
-          columns.insert(columns.end(), group.columns.begin(), group.columns.end());
-          for (unsigned int t = 0; t < group.tables.size(); ++t)
-            group.tables[t]->append(columns, group.tables.size() == 1 ? rows : Rows{ rows[t] });
-        }
-  }
 
   template class Probes<2>;
   template class Probes<3>;

@@ -1,63 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/input/input_error.h>
-#include <scree/postprocess/measures.h>
 #include <scree/postprocess/statistics.h>
-#include <scree/step/budget.h>
 #include <scree/tensor/vector.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <cmath>
 #include <iomanip>
-#include <map>
 
 namespace scree
 {
   using namespace dealii;
-
-  template <int dim>
-  void RunBalance<dim>::add(const UpdateReport &report)
-  {
-    plastic_dissipation += report.plastic_dissipation;
-    n_updates += report.n_updates;
-    n_substeps += report.n_substeps;
-    n_fallbacks += report.n_fallbacks;
-    n_vertices += report.n_vertices;
-    n_unresolved += report.n_unresolved;
-  }
-
-
-  template <int dim>
-  Tensor<1, dim> RunBalance<dim>::impulse() const
-  {
-    return balance.wall_impulse + balance.body_impulse + balance.pressure_impulse + balance.load_impulse +
-           balance.bed_impulse + balance.obstacle_impulse() + entered_momentum - lost_momentum;
-  }
-
-
-  template <int dim>
-  double RunBalance<dim>::energy_taken() const
-  {
-    return plastic_dissipation + balance.wall_dissipation + balance.bed_dissipation + balance.contact_dissipation +
-           balance.drag_dissipation + balance.viscous_dissipation + lost_energy - balance.load_work -
-           balance.correction_work - balance.obstacle_energy() - entered_energy;
-  }
-
-
-  template <int dim>
-  RunBalance<dim> RunBalance<dim>::sum_over_ranks(const MPI_Comm communicator) const
-  {
-    RunBalance total = *this;
-    const NumbersOf numbers(total);
-    std::vector<double> sums; // one message for all
-    for (const double *number : numbers.list)
-      sums.push_back(*number);
-    Utilities::MPI::sum(sums, communicator, sums);
-    for (std::size_t i = 0; i < sums.size(); ++i)
-      *numbers.list[i] = sums[i];
-    return total;
-  }
 
   template struct RunBalance<2>;
   template struct RunBalance<3>;
@@ -315,18 +264,6 @@ namespace scree
 
 
   template <int dim>
-  Statistics<dim>::Statistics(const BackgroundGrid<dim> &grid,
-                              const Tensor<1, dim> &gravity,
-                              const SceneFeatures<dim> &further)
-      : grid(grid)
-      , gravity(gravity)
-      , further(further)
-      , motion(grid, gravity, further.bed)
-  {
-  }
-
-
-  template <int dim>
   void Statistics<dim>::collect(const std::list<SoilBody<dim>> &bodies,
                                 const std::list<WaterPhase<dim>> &water,
                                 const RunBalance<dim> &local,
@@ -357,15 +294,11 @@ namespace scree
         history.start_momentum = now.momentum() - now.impulse();
         history.start_energy   = now.energy();
       }
-    const Budget<dim> &balance = now.totals.balance;
-    history.obstacles.resize(balance.obstacles.size());
-    last_row                     = row_of(now);
-    history.step                 = step;
-    history.time                 = time;
-    history.n_iterations         = balance.n_iterations;
-    history.n_cavitating         = balance.n_cavitating;
-    history.n_viscous_iterations = balance.n_viscous_iterations;
-    history.obstacles            = balance.obstacles;
+    history.balance.obstacles.resize(now.totals.balance.obstacles.size());
+    last_row        = row_of(now);
+    history.step    = step;
+    history.time    = time;
+    history.balance = now.totals.balance;
   }
 
 

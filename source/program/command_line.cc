@@ -1,24 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/advise.h>
-#include <scree/input/input_error.h>
-#include <scree/input/input_file.h>
 #include <scree/program/command_line.h>
 #include <scree/run/safety.h>
-#include <scree/run/simulation.h>
 #include <scree/version.h>
 
-#include <deal.II/base/mpi.h>
-
-
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <iterator>
-#include <optional>
 #include <regex>
-#include <sstream>
-#include <vector>
 
 namespace scree
 {
@@ -110,9 +97,8 @@ namespace scree
 
     double accuracy_of(const std::string &text)
     {
-      std::istringstream number(text);
-      double accuracy;
-      if (!(number >> accuracy) || !number.eof() || !(accuracy > 0 && accuracy < 1))
+      const double accuracy = number_of(text);
+      if (!(accuracy > 0 && accuracy < 1))
         throw fault("\"--accuracy\" is " + quoted(text) + ". Write a relative error between 0 and 1, such as 0.05.");
       return accuracy;
     }

@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/geometry/raster.h>
-#include <scree/io/progress.h>
 #include <scree/run/case_record.h>
 #include <scree/version.h>
 
-#include <deal.II/base/mpi.h>
-#include <deal.II/base/utilities.h>
-
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <ctime>
 #include <sstream>
 

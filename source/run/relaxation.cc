@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/run/relaxation.h>
 #include <scree/tensor/invariants.h>
-#include <scree/tensor/vector.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace scree
 {
@@ -155,23 +148,6 @@ namespace scree
       return 0.5 * gravity * height * height * sums[1] / sums[0];
     }
   } // namespace
-
-
-  TrialJudge::TrialJudge(const TrialBounds &bounds)
-      : bounds(bounds)
-  {
-  }
-
-
-  TrialEnd TrialJudge::look(const double time, const double displacement, const double speed)
-  {
-    if (displacement > bounds.displacement)
-      return TrialEnd::fails;
-    slow_since = speed < bounds.speed ? std::min(slow_since, time) : std::numeric_limits<double>::infinity();
-    if (slow_since <= time - bounds.time_scale)
-      return TrialEnd::rests;
-    return time >= bounds.maximum_time ? TrialEnd::fails : TrialEnd::undecided;
-  }
 
 
   template <int dim>

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/input/input_error.h>
-#include <scree/io/run_folder.h>
 #include <scree/run/safety.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <limits>
 
 namespace scree
 {

@@ -1,17 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case/case_checks.h>
-#include <scree/input/input_error.h>
-#include <scree/io/checkpoint.h>
-#include <scree/postprocess/measures.h>
-#include <scree/io/progress.h>
-#include <scree/run/case_record.h>
 #include <scree/run/simulation.h>
-#include <scree/run/step_control.h>
-#include <scree/transfer/transfer.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <iostream>
 
 namespace scree
 {
@@ -66,31 +55,6 @@ namespace scree
 
 
   template <int dim>
-  Simulation<dim>::Simulation(Parameters &parameters, const Start start, const MPI_Comm communicator)
-      : parameters(parameters)
-      , start(start)
-      , communicator(communicator)
-      , folder(parameters.output_directory, parameters.output.screen_kind() == Screen::progress, communicator)
-      , stop(folder.is_writer() ? folder.file("terminate") : "", parameters.output.wall_time_limit)
-      , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
-      , scene(parameters, communicator)
-      , scheme(scene.make_scheme(timer))
-      , partition(scene.grid.triangulation(), scheme->point_sets())
-      , adaptation(scene, *scheme, timer, communicator)
-      , clock(parameters.time_step)
-      , control(scene, clock, stop, timer, communicator)
-      , output_times(parameters.output, parameters.end_time)
-      , results(parameters, scene, *scheme, folder)
-      , totals(scene.obstacles.size())
-  {
-    if (start == Start::resume)
-      resume();
-    else
-      initialise();
-  }
-
-
-  template <int dim>
   void Simulation<dim>::initialise()
   {
     scene.fill();
@@ -137,15 +101,6 @@ namespace scree
                checkpoint.folder + " of " + checkpoint.manifest.program + '.');
     for (const std::string &note : notes)
       folder.log(note);
-  }
-
-
-  template <int dim>
-  void Simulation<dim>::reinit()
-  {
-    scene.reinit();
-    scheme->reinit();
-    scheme->read_points();
   }
 
 
@@ -214,31 +169,6 @@ namespace scree
 
 
   template <int dim>
-  void Simulation<dim>::summarise(const End end, const double point_updates_before)
-  {
-    const double n_updates = Utilities::MPI::sum(point_updates - point_updates_before, communicator);
-    progress->conclude(end == End::complete ? "Finished" : "Stopped", clock.time(), n_updates, communicator);
-    progress->summarise(timer, n_updates, scene.name_of_a_point(), communicator);
-    progress->summarise_ranks(
-        seconds_of(timer, TimerSection::waiting), partition.imbalance(), partition.n_repartitions(), communicator);
-    adaptation.summarise(folder);
-    log_balance(scene, totals, folder, communicator);
-    log_peak_memory(folder, communicator);
-    results.complete();
-  }
-
-
-  template <int dim>
-  double Simulation<dim>::step(const double largest_step, const double due)
-  {
-    last_time_step = clock.next_step(largest_step, due);
-    advance(last_time_step);
-    clock.advance(last_time_step, due);
-    return last_time_step;
-  }
-
-
-  template <int dim>
   void Simulation<dim>::advance(const double time_step)
   {
     adaptation.follow_points(time_step, [this] {
@@ -286,20 +216,6 @@ namespace scree
 
 
   template <int dim>
-  void Simulation<dim>::end_step(const double time_step)
-  {
-    const std::unique_ptr<WaterView<dim>> water = scene.is_fed() ? scheme->water_view() : nullptr;
-    scene.let_in(clock.time(), time_step, water ? water->pressure_of_cell : PressureOfCell<dim>(), totals);
-    if (scene.wet_ground_moves())
-      {
-        const TimedPart part(timer, TimerSection::bed);
-        scene.cut_cells->follow();
-        scheme->follow_ground();
-      }
-  }
-
-
-  template <int dim>
   void Simulation<dim>::place_points(const double time_step, const Speeds &of_rank)
   {
     const auto sets = point_sets();
@@ -332,82 +248,6 @@ namespace scree
     if (is_sorted && scene.grid.follows_points())
       adaptation.look_at_points();
     partition.finish(Work::to_nodes);
-  }
-
-
-  template <int dim>
-  void Simulation<dim>::settle()
-  {
-    stop.listen();
-    is_released = false;
-    results.add_checks(relaxation().settle());
-    is_released = control.stop_reason() == StopReason::none;
-    // Balances begin at the release; what was lost stays lost.
-    const RunBalance<dim> settled = totals;
-    totals                        = RunBalance<dim>(scene.obstacles.size());
-    totals.n_lost                 = settled.n_lost;
-    totals.lost_mass              = settled.lost_mass;
-    totals.lost_volume            = settled.lost_volume;
-    totals.lost_water_mass        = settled.lost_water_mass;
-  }
-
-
-  template <int dim>
-  Trial Simulation<dim>::try_strength(const double displacement)
-  {
-    stop.listen();
-    is_released = false;
-    return relaxation().try_strength(displacement);
-  }
-
-
-  template <int dim>
-  Relaxation<dim> Simulation<dim>::relaxation()
-  {
-    return { parameters, scene, *scheme, control, folder, [this](const double time_step) { advance(time_step); } };
-  }
-
-
-  template <int dim>
-  void Simulation<dim>::repartition()
-  {
-    if (!partition.is_worth_changing())
-      return;
-    const TimedPart part(timer, TimerSection::repartition);
-    partition.repartition([this] { reinit(); });
-  }
-
-
-  template <int dim>
-  void Simulation<dim>::report()
-  {
-    const TimedPart part(timer, TimerSection::output);
-    results.report(state(), output_times);
-    if (output_times.checkpoint_is_due(clock.time()))
-      begin_checkpoint();
-    output_times.begin(clock.time());
-    if (is_at_end())
-      results.writer().finish();
-    stop.allow_for(results.writer().longest());
-  }
-
-
-  template <int dim>
-  template <class Archive>
-  void Simulation<dim>::serialize_state(Archive &archive)
-  {
-    double time             = clock.time();
-    unsigned long long step = clock.step();
-    archive &time &step;
-    control.serialize(archive);
-    archive &last_time_step &totals;
-    results.serialize(archive);
-    for (Obstacle<dim> &obstacle : scene.obstacles)
-      archive &obstacle;
-    scene.serialize_what_enters(archive);
-    for (PointSet<dim> *points : point_sets())
-      archive & points->next_id;
-    clock.set(time, step);
   }
 
 

@@ -1,13 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/run/step_control.h>
-#include <scree/step/step_report.h>
-#include <scree/tensor/vector.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace scree
 {
@@ -205,22 +197,6 @@ namespace scree
           ahead.size() <= std::max(few_blocks, GridParameters::most_ahead * around.size()))
         return ahead;
     return around;
-  }
-
-
-  template <int dim>
-  bool MeshAdaptation<dim>::are_points_at_edge() const
-  {
-    const auto sets = scheme.point_sets();
-    const bool own  = std::any_of(sets.begin(), sets.end(), [](const auto *points) { return points->is_at_edge(); });
-    return Utilities::MPI::max(int(own), communicator) == 1;
-  }
-
-
-  template <int dim>
-  void MeshAdaptation<dim>::look_at_points()
-  {
-    points_at_edge = are_points_at_edge() || points_at_edge;
   }
 
 

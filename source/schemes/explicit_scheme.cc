@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/schemes/explicit_scheme.h>
 
-#include <algorithm>
 #include <iterator>
 
 namespace scree
@@ -44,57 +43,6 @@ namespace scree
       contacts.emplace_back(model.grid, at_nodes[pair.first], at_nodes[pair.second], pair, bodies);
     if (groups.size() > 1)
       mean_field = std::make_unique<NodalField<dim>>(model.grid);
-  }
-
-
-  template <int dim>
-  WallGaps<dim> &ExplicitScheme<dim>::gaps_of(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints)
-  {
-    for (WallGaps<dim> &gaps : wall_gaps)
-      if (gaps.are_of(constraints))
-        return gaps;
-    return wall_gaps.emplace_back(grid, constraints);
-  }
-
-
-  template <int dim>
-  void ExplicitScheme<dim>::reinit()
-  {
-    for (WallGaps<dim> &gaps : wall_gaps)
-      gaps.reinit();
-    for (Group &group : groups)
-      {
-        group.soil.reinit();
-        group.contact.reinit();
-      }
-    for (auto &contact : contacts)
-      contact.reinit();
-    if (mean_field)
-      mean_field->reinit();
-  }
-
-
-  template <int dim>
-  void ExplicitScheme<dim>::read_points()
-  {
-    for (Group &group : groups)
-      group.soil.field.clear();
-  }
-
-
-  template <int dim>
-  void ExplicitScheme<dim>::to_grid(const double time)
-  {
-    for (Group &group : groups)
-      group.soil.average(timer);
-    const TimedPart part(timer, TimerSection::points_to_grid);
-    for (Group &group : groups)
-      group.soil.to_grid(time);
-    for (WallGaps<dim> &gaps : wall_gaps)
-      gaps.clear();
-    for (const auto &body : bodies)
-      if (!body.is_rigid)
-        std::next(groups.begin(), body.group)->wall_gaps.add(body.points, body.spacing);
   }
 
 
@@ -154,50 +102,6 @@ namespace scree
 
 
   template <int dim>
-  void ExplicitScheme<dim>::solve_contacts(const double time_step, Budget<dim> &budget)
-  {
-    if (contacts.empty())
-      return;
-    const TimedPart part(timer, TimerSection::contacts);
-    // Where three groups meet, one contact disturbs the other.
-    const unsigned int n_sweeps = contacts.size() == 1 ? 1 : 4;
-    for (unsigned int sweep = 0; sweep < n_sweeps; ++sweep)
-      for (auto &contact : contacts)
-        contact.solve(time_step, budget);
-    for (Group &group : groups)
-      group.soil.field.update_ghosts();
-  }
-
-
-  template <int dim>
-  void ExplicitScheme<dim>::to_points(const double time_step, StepReport<dim> &report)
-  {
-    const TimedPart part(timer, TimerSection::stress);
-    for (Group &group : groups)
-      group.soil.to_points(time_step, report);
-  }
-
-
-  template <int dim>
-  NodalForces ExplicitScheme<dim>::nodal_forces(const double time_step) const
-  {
-    NodalForces sums;
-    for (const Group &group : groups)
-      add_nodal_forces<dim>(group.soil.field, nullptr, forces, time_step, sums);
-    return sums;
-  }
-
-
-  template <int dim>
-  std::vector<PointSet<dim> *> ExplicitScheme<dim>::point_sets()
-  {
-    std::vector<PointSet<dim> *> sets;
-    groups.front().soil.append_point_sets(sets);
-    return sets;
-  }
-
-
-  template <int dim>
   const NodalField<dim> &ExplicitScheme<dim>::soil_field()
   {
     if (!mean_field)
@@ -224,12 +128,6 @@ namespace scree
     return *mean_field;
   }
 
-
-  template <int dim>
-  std::unique_ptr<WaterView<dim>> ExplicitScheme<dim>::water_view() const
-  {
-    return nullptr;
-  }
 
   template class ExplicitScheme<2>;
   template class ExplicitScheme<3>;

@@ -2,8 +2,6 @@
 #include <scree/contact/cut_cells/clamp_to_box.h>
 #include <scree/schemes/two_phase_scheme.h>
 
-#include <algorithm>
-
 namespace scree
 {
   using namespace dealii;
@@ -60,31 +58,6 @@ namespace scree
 
 
   template <int dim>
-  void TwoPhaseScheme<dim>::reinit()
-  {
-    soil.reinit();
-    mixture.reinit();
-    pores.reinit();
-    water_field.reinit();
-    excess.reinit();
-    pressure.reinit();
-    wall_gaps.reinit();
-    momentum.reinit();
-    viscosity.reinit();
-    contact.reinit();
-    shifting.reinit();
-  }
-
-
-  template <int dim>
-  void TwoPhaseScheme<dim>::follow_ground()
-  {
-    pressure.follow_ground();
-    contact.follow();
-  }
-
-
-  template <int dim>
   void TwoPhaseScheme<dim>::gather()
   {
     mixture.clear();
@@ -100,30 +73,6 @@ namespace scree
       if (inflow.water_share > 0.)
         inflow.add_to(mixture);
     mixture.scale_inertia(forces.mass_scaling());
-  }
-
-
-  template <int dim>
-  void TwoPhaseScheme<dim>::activate_nodes()
-  {
-    for (const MixtureCell<dim> &cell : mixture.cells())
-      {
-        soil.field.activate_cell(cell.cell);
-        water_field.activate_cell(cell.cell);
-        excess.activate_cell(cell.cell);
-        pores.activate_cell(cell.cell);
-      }
-  }
-
-
-  template <int dim>
-  void TwoPhaseScheme<dim>::read_points()
-  {
-    gather();
-    activate_nodes();
-    pressure.locate(mixture);
-    soil.field.clear();
-    water_field.clear(); // sums, not velocities
   }
 
 
@@ -144,23 +93,6 @@ namespace scree
     for (auto &one : water)
       if (const PointSet<dim> *own = one.own_points())
         ground_gaps.add(*own, one.layout.velocity, spacing);
-  }
-
-
-  template <int dim>
-  void TwoPhaseScheme<dim>::sum_at_nodes(const double time_step)
-  {
-    const TimedPart part(timer, TimerSection::nodes);
-    activate_nodes();
-    pressure.locate(mixture);
-    soil.add_loads(time_step); // Pressure is implicit, so the load is that of the step's end.
-    soil.field.add_contributions();
-    water_field.add_contributions();
-    pores.add_contributions();
-    soil.field.scale_inertia(forces.mass_scaling());
-    water_field.scale_inertia(forces.mass_scaling());
-    wall_gaps.release(forces, time_step);
-    find_pair(time_step);
   }
 
 
@@ -204,16 +136,6 @@ namespace scree
 
 
   template <int dim>
-  void TwoPhaseScheme<dim>::solve_drained(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget)
-  {
-    load_soil_with_water();
-    momentum.predict(nodes, time_step, transfer.kept(time_step), budget);
-    contact.begin_step(mixture, pressure.free_surface());
-    contact.predict(nodes, mixture, momentum, time_step, budget);
-  }
-
-
-  template <int dim>
   void TwoPhaseScheme<dim>::load_soil_with_water()
   {
     using Field = NodalField<dim>;
@@ -236,34 +158,6 @@ namespace scree
 
 
   template <int dim>
-  void TwoPhaseScheme<dim>::end_step(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget)
-  {
-    {
-      const TimedPart part(timer, TimerSection::nodes);
-      viscosity.count_dissipation(nodes, budget);
-      pressure.accept_change();
-      // The predictor has counted the load among the forces.
-      budget.load_impulse += soil.load_impulse(time_step);
-      budget.pressure_impulse -= soil.load_impulse(time_step);
-    }
-    contact.count_pressure(mixture, pressure, time_step, budget);
-  }
-
-
-  template <int dim>
-  void TwoPhaseScheme<dim>::to_points(const double time_step, StepReport<dim> &report)
-  {
-    {
-      const TimedPart part(timer, TimerSection::stress);
-      soil.to_points(time_step, report);
-    }
-    if (!holds_water)
-      move_water(time_step, report);
-    project_to_boundary(time_step, report.speeds.points);
-  }
-
-
-  template <int dim>
   void TwoPhaseScheme<dim>::move_water(const double time_step, StepReport<dim> &report)
   {
     const TimedPart part(timer, TimerSection::water_points);
@@ -279,22 +173,6 @@ namespace scree
         if (const PointSet<dim> *own = one.own_points())
           report.n_updates += own->n_points();
       }
-  }
-
-
-  template <int dim>
-  void TwoPhaseScheme<dim>::hold_water(const bool holds)
-  {
-    holds_water = holds;
-  }
-
-
-  template <int dim>
-  NodalForces TwoPhaseScheme<dim>::nodal_forces(const double time_step) const
-  {
-    NodalForces sums;
-    add_nodal_forces(soil.field, &water_field, forces, time_step, sums);
-    return sums;
   }
 
 
@@ -325,13 +203,6 @@ namespace scree
       if (PointSet<dim> *own = one.own_points())
         sets.push_back(own);
     return sets;
-  }
-
-
-  template <int dim>
-  const NodalField<dim> &TwoPhaseScheme<dim>::soil_field()
-  {
-    return soil.field;
   }
 
 

@@ -7,35 +7,20 @@ namespace scree
 
   std::string name_of(const TimerSection part)
   {
-    switch (part)
-      {
-      case TimerSection::nonlocal:
-        return "non-local strain";
-      case TimerSection::points_to_grid:
-        return "points to grid";
-      case TimerSection::nodes:
-        return "nodes";
-      case TimerSection::bed:
-        return "contact with the bed";
-      case TimerSection::contacts:
-        return "contact between bodies";
-      case TimerSection::pressure_system:
-        return "pressure: system";
-      case TimerSection::pressure_solve:
-        return "pressure: solve";
-      case TimerSection::stress:
-        return "grid to points, stress";
-      case TimerSection::water_points:
-        return "grid to water points";
-      case TimerSection::sort:
-        return "sort into cells and ranks";
-      case TimerSection::waiting:
-        return "waiting for other ranks";
-      case TimerSection::repartition:
-        return "repartition";
-      default:
-        return "output";
-      }
+    static const char *const names[] = { "non-local strain",
+                                         "points to grid",
+                                         "nodes",
+                                         "contact with the bed",
+                                         "contact between bodies",
+                                         "pressure: system",
+                                         "pressure: solve",
+                                         "grid to points, stress",
+                                         "grid to water points",
+                                         "sort into cells and ranks",
+                                         "waiting for other ranks",
+                                         "repartition",
+                                         "output" };
+    return names[static_cast<unsigned int>(part)];
   }
 
 

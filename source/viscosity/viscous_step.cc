@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/transfer/cell_sums.h>
 #include <scree/viscosity/viscous_step.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace scree
 {
@@ -41,14 +35,6 @@ namespace scree
       return sum;
     }
   } // namespace
-
-
-  template <int dim>
-  ViscousForce<dim>::ViscousForce(const BackgroundGrid<dim> &grid, const double viscosity)
-      : grid(grid)
-      , viscosity(viscosity)
-  {
-  }
 
 
   template <int dim>
@@ -111,12 +97,6 @@ namespace scree
       add_points<3>(water, motion, field);
   }
 
-
-  template <int dim>
-  double ViscousForce<dim>::largest_rate(const WaterPhase<dim> &water) const
-  {
-    return grid.n_nodes_1d() == 2 ? bound<2>(water) : bound<3>(water);
-  }
 
   template class ViscousForce<2>;
   template class ViscousForce<3>;
@@ -213,16 +193,6 @@ namespace scree
   SoilAndWater<dim> ViscousStep<dim>::impulses_at(const unsigned int node) const
   {
     return { Tensor<1, dim>(), part(*impulses, node, NodalField<dim>::force) };
-  }
-
-
-  template <int dim>
-  double ViscousStep<dim>::product(const Vector &a, const Vector &b) const
-  {
-    double sum = 0;
-    for (unsigned int i = 0; i < a.size(); ++i)
-      sum += a[i].soil * b[i].soil + a[i].water * b[i].water;
-    return Utilities::MPI::sum(sum, grid.communicator());
   }
 
 

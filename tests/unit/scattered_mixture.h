@@ -2,7 +2,7 @@
 #ifndef scree_tests_unit_scattered_mixture_h
 #define scree_tests_unit_scattered_mixture_h
 
-#include <scree/geometry/surfaces.h>
+#include <scree/geometry/bed_parameters.h>
 #include <scree/momentum/two_phase_momentum.h>
 
 #include <cmath>

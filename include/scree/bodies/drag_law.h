@@ -17,7 +17,17 @@ namespace scree
   {
   public:
     /// @param initial_porosity at which a given conductivity holds
-    DragLaw(const WaterParameters &water, const double initial_porosity);
+    DragLaw(const WaterParameters &water, const double initial_porosity)
+        : unit_weight(water.density * standard_gravity)
+        , is_constant(water.grain_diameter == 0 && water.conductivity_law_kind() == ConductivityLaw::constant)
+        , per_grains(water.grain_diameter > 0 ? 1.75 * water.density / water.grain_diameter : 0.)
+    {
+      if (water.grain_diameter > 0)
+        factor = unit_weight * water.grain_diameter * water.grain_diameter / (150. * water.viscosity);
+      else
+        factor = is_constant ? water.conductivity
+                             : water.conductivity / kozeny_carman(std::max(initial_porosity, smallest_porosity));
+    }
 
     /// Of slow flow, m/s.
     double conductivity(const double porosity) const
@@ -38,6 +48,8 @@ namespace scree
     }
 
   private:
+    static constexpr double standard_gravity = 9.81; // m/s^2
+
     static double kozeny_carman(const double n)
     {
       return n * n * n / ((1. - n) * (1. - n));

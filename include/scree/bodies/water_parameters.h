@@ -2,15 +2,9 @@
 #ifndef scree_bodies_water_parameters_h
 #define scree_bodies_water_parameters_h
 
-#include <scree/geometry/level_set.h>
+#include <scree/particles/region.h>
 
-#include <deal.II/base/parameter_handler.h>
-
-#include <memory>
-#include <string>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 namespace scree
 {
@@ -32,7 +26,21 @@ namespace scree
     std::string wall_heads = "";    ///< `Left: 12, Right: 4`, m; empty: none
 
     /// Declares the entries in the subsection that is open.
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(dealii::ParameterHandler &prm)
+    {
+      prm.add_parameter(
+          "Steady seepage",
+          is_steady,
+          "Whether the pore pressure at the start is that of steady flow through the soil, with a free "
+          "surface, between the heads of \"Reservoir level\" and \"Heads at walls\". Pores are full where "
+          "it is not negative. Water leaves through faces in air. Alternative to \"Phreatic surface\".");
+      prm.add_parameter(
+          "Heads at walls",
+          wall_heads,
+          "m; elevations of the water table at walls of the box for \"Steady seepage\", such as Left: 12, "
+          "Right: 4. They hold at the start only; in the run the wall is as in subsection "
+          "Boundaries/Water. Empty: none.");
+    }
 
     /// Throws EntryError at impossible combinations with other entries of subsection Water.
     /// @param phreatic entry and value of a phreatic surface; empty: not given
@@ -42,10 +50,37 @@ namespace scree
                const std::string &initial_pressure) const;
 
     /// Throws EntryError if a head at a wall is not in the box.
-    void check_heads(const std::vector<double> &lower, const std::vector<double> &upper) const;
+    void check_heads(const std::vector<double> &lower, const std::vector<double> &upper) const
+    {
+      const double bottom = lower.back(), top = upper.back();
+      for (const auto &[wall, head] : heads())
+        {
+          require_entry(wall != "Top",
+                        { "Water", "Heads at walls", wall_heads },
+                        "no soil at the top wall is below a head in the box. Remove \"Top\".");
+          require_entry(head > bottom && head <= top,
+                        { "Water", "Heads at walls", wall_heads },
+                        "the head of " + number_text(head) +
+                            " m is not in the box of subsection Mesh. Write one above " + number_text(bottom) +
+                            " and up to " + number_text(top) + " m, or a larger box.");
+        }
+    }
 
     /// Names of walls and heads, m. Throws EntryError if the text does not read.
-    std::vector<std::pair<std::string, double>> heads() const;
+    std::vector<std::pair<std::string, double>> heads() const
+    {
+      std::vector<std::pair<std::string, double>> heads;
+      for (const std::string &part : dealii::Utilities::split_string_list(wall_heads, ','))
+        {
+          const std::vector<std::string> words = dealii::Utilities::split_string_list(part, ':');
+          const double head                    = words.size() == 2 ? number_of(words[1]) : std::nan("");
+          require_entry(std::isfinite(head),
+                        { "Water", "Heads at walls", wall_heads },
+                        "write walls with their heads in m, such as Left: 12, Right: 4.");
+          heads.emplace_back(words.front(), head);
+        }
+      return heads;
+    }
   };
 
   /// How points carry soil and water.
@@ -100,16 +135,28 @@ namespace scree
     void check(const std::vector<double> &gravity, const unsigned int n_bodies) const;
 
     /// Entry `Point sets` as an enum.
-    PointSets point_sets_kind() const;
+    PointSets point_sets_kind() const
+    {
+      return point_sets == "single" ? PointSets::single_point : PointSets::double_point;
+    }
 
     /// Entry `Initial pressure` as an enum.
-    InitialPressure initial_pressure_kind() const;
+    InitialPressure initial_pressure_kind() const
+    {
+      return initial_pressure == "none" ? InitialPressure::none : InitialPressure::hydrostatic;
+    }
 
     /// Entry `Conductivity law` as an enum.
-    ConductivityLaw conductivity_law_kind() const;
+    ConductivityLaw conductivity_law_kind() const
+    {
+      return conductivity_law == "constant" ? ConductivityLaw::constant : ConductivityLaw::kozeny_carman;
+    }
 
     /// Whether the region is wherever soil is, and not an expression.
-    bool is_where_soil_is() const;
+    bool is_where_soil_is() const
+    {
+      return region == "same" && !has_levels();
+    }
 
     /// Sets `fringe` from the air entry pressure, where levels say where water is.
     /// @param gravity m/s^2
@@ -128,10 +175,22 @@ namespace scree
     }
 
     /// Whether a phreatic surface, a reservoir level or steady seepage say where water is, in place of the region.
-    bool has_levels() const;
+    bool has_levels() const
+    {
+      return seepage_start.is_steady || !(phreatic_surface.empty() && reservoir_level.empty());
+    }
 
     /// Entry and value that place the water, for messages.
-    std::pair<std::string, std::string> place() const;
+    std::pair<std::string, std::string> place() const
+    {
+      if (seepage_start.is_steady)
+        return { "Steady seepage", "true" };
+      if (!phreatic_surface.empty())
+        return { "Phreatic surface", phreatic_surface };
+      if (!reservoir_level.empty())
+        return { "Reservoir level", reservoir_level };
+      return { "Region", region };
+    }
 
     /// Where water is in pores, as an expression; a table() is asked besides.
     std::string region_in_soil(const unsigned int dim) const;
@@ -155,12 +214,62 @@ namespace scree
     }
 
   private:
-    void add_level_parameters(dealii::ParameterHandler &prm);
+    void add_level_parameters(dealii::ParameterHandler &prm)
+    {
+      prm.add_parameter(
+          "Phreatic surface",
+          phreatic_surface,
+          "m; elevation of the water table, an expression of x (3D: x, y). The pores of soil below it are "
+          "full, and there is no water outside the soil but that of \"Reservoir level\". Alternative to "
+          "\"Region\". The vertical axis is y (3D: z). Empty: not given.");
+      prm.add_parameter(
+          "Reservoir level",
+          reservoir_level,
+          "m; elevation of free water outside the soil, an expression of x (3D: x, y), such as if(x < 20, "
+          "8, 0.5). Without \"Phreatic surface\" it also fills the pores below it. Empty: no free water.");
+      seepage_start.add_parameters(prm);
+    }
     void add_drag_parameters(dealii::ParameterHandler &prm);
-    void check_grain_diameter() const; // alone it gives the drag
-    void check_air_entry(const unsigned int n_bodies) const;
+
+    /// Alone it gives the drag.
+    void check_grain_diameter() const
+    {
+      const std::string grains = "\"Grain diameter\" = " + number_text(grain_diameter);
+      require_entry(conductivity_text == "auto",
+                    { "Water", "Hydraulic conductivity", conductivity_text },
+                    "the drag follows from " + grains + ". Remove one of the two.");
+      require_entry(viscosity > 0,
+                    { "Water", "Viscosity", viscosity },
+                    "the drag of grains of " + grains +
+                        " needs it. Write 1e-3 for water, or \"Hydraulic conductivity\" in place of the diameter.");
+      require_entry(conductivity_law == WaterParameters().conductivity_law,
+                    { "Water", "Conductivity law", conductivity_law },
+                    "the drag follows from " + grains + ". Remove one of the two.");
+    }
+    void check_air_entry(const unsigned int n_bodies) const
+    {
+      const auto require = [&](const bool possible, const std::string &remedy) {
+        require_entry(possible, { "Water", "Air entry pressure", air_entry_pressure }, remedy);
+      };
+      require(n_bodies > 0, "this entry has no effect, as there is no soil: entry \"Bodies\" is none. Remove it.");
+      require(point_sets_kind() == PointSets::double_point,
+              "single-point water does not leave the soil, and no air enters it. Remove the entry, or write "
+              "\"Point sets = double\".");
+      require(
+          !seepage_start.is_steady,
+          "the pores above the water table of \"Steady seepage\" would not be full. Remove one of the two entries, or "
+          "write the elevation as \"Phreatic surface\".");
+    }
     void check_single_point() const;
-    void check_without_soil() const;
+    void check_without_soil() const
+    {
+      const WaterParameters defaults;
+      const std::string remedy = "this entry has no effect, as there is no soil: entry \"Bodies\" is none. Remove it.";
+      require_entry(conductivity_text == "auto", { "Water", "Hydraulic conductivity", conductivity_text }, remedy);
+      require_entry(
+          conductivity_law == defaults.conductivity_law, { "Water", "Conductivity law", conductivity_law }, remedy);
+      require_entry(grain_diameter == defaults.grain_diameter, { "Water", "Grain diameter", grain_diameter }, remedy);
+    }
     void check_levels(const std::vector<double> &gravity, const unsigned int n_bodies) const;
 
     std::tuple<std::shared_ptr<const LevelSet<2>>, std::shared_ptr<const LevelSet<3>>> tables;
@@ -172,14 +281,34 @@ namespace scree
     double conductivity = 0; ///< m/s, at the initial porosity; 0: that of subsection Water
 
     /// Declares the entries in the body's subsection.
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(dealii::ParameterHandler &prm)
+    {
+      prm.add_parameter("Hydraulic conductivity",
+                        conductivity,
+                        "m/s; conductivity (Darcy) of this body at its initial porosity; 0: as in subsection Water.",
+                        dealii::Patterns::Double(0));
+    }
 
     /// Throws EntryError at impossible combinations; `body` is the name of the subsection.
     /// @param water null in a dry scene
-    void check(const std::string &body, const WaterParameters *water) const;
+    void check(const std::string &body, const WaterParameters *water) const
+    {
+      const std::string dry =
+          "this entry has no effect, as the file has no subsection Water. Add one, or remove the entry.";
+      require_entry(water != nullptr || conductivity == 0, { body, "Hydraulic conductivity", conductivity }, dry);
+    }
 
     /// The entries of subsection Water, with those of the body in their place.
-    WaterParameters in_place_of(const WaterParameters &water) const;
+    WaterParameters in_place_of(const WaterParameters &water) const
+    {
+      WaterParameters result = water;
+      if (conductivity > 0)
+        {
+          result.conductivity   = conductivity;
+          result.grain_diameter = 0;
+        }
+      return result;
+    }
   };
 } // namespace scree
 

@@ -4,8 +4,6 @@
 
 #include <scree/bodies/soil_body.h>
 
-#include <memory>
-
 namespace scree
 {
   /// Where a water point's quantities lie among its ParticleHandler properties (offsets in doubles).

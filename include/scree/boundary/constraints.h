@@ -2,15 +2,8 @@
 #ifndef scree_boundary_constraints_h
 #define scree_boundary_constraints_h
 
-#include <scree/boundary/boundary_conditions.h>
-#include <scree/boundary/node_constraint.h>
 #include <scree/boundary/water_walls.h>
 #include <scree/particles/region.h>
-
-#include <map>
-#include <memory>
-#include <utility>
-#include <vector>
 
 namespace scree
 {
@@ -30,13 +23,25 @@ namespace scree
 
     /// The same, with nodes at which soil does not move from here on. Inflows have to be set after that.
     /// @param is_rigid of the nodes of this rank's cells, ghosts included; empty: none
-    void hold_soil(const std::vector<char> &is_rigid);
+    void hold_soil(const std::vector<char> &is_rigid)
+    {
+      rigid = is_rigid;
+      inflow_of_node.clear();
+      reinit();
+    }
 
     /// Soil and water do not move at the nodes in this region until the gate is opened.
-    void close_gate(std::unique_ptr<Region<dim>> region);
+    void close_gate(std::unique_ptr<Region<dim>> region)
+    {
+      gate = std::move(region);
+      on_all_ranks(grid.communicator(), [&] { reinit(); });
+    }
 
     /// Removes the constraints of close_gate().
-    void open_gate();
+    void open_gate()
+    {
+      close_gate(nullptr);
+    }
 
     /// What an inflow moves, in place of what walls do to it.
     struct MovedByInflow
@@ -51,7 +56,13 @@ namespace scree
     void set_inflows(const std::vector<unsigned int> &inflow_of_node, const std::vector<MovedByInflow> &inflows);
 
     /// Velocity of an inflow, m/s.
-    void set_inflow_velocity(const unsigned int inflow, const dealii::Tensor<1, dim> &velocity);
+    void set_inflow_velocity(const unsigned int inflow, const dealii::Tensor<1, dim> &velocity)
+    {
+      inflows[inflow].velocity = velocity;
+      for (unsigned int set = 0; set < inflow_of_set.size(); ++set)
+        if (inflow_of_set[set] == inflow)
+          add_inflow(inflows[inflow], sets[set]);
+    }
 
     /// Stands for no inflow, and for no constraint.
     static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int;
@@ -63,17 +74,36 @@ namespace scree
     }
 
     /// These walls (bit f: face f) do not act until hold_all() on a node that has walls alone.
-    void release(const unsigned int node, const std::uint8_t faces);
+    void release(const unsigned int node, const std::uint8_t faces)
+    {
+      take_walls(node, faces, released);
+    }
 
     /// Makes all walls act again after release().
-    void hold_all();
+    void hold_all()
+    {
+      give_back(released);
+    }
 
     /// These walls (bit f: face f) do not act on these nodes, where walls alone do, until the next call.
     /// @param nodes of this rank's cells, ghosts included
-    void cover(const std::vector<std::pair<unsigned int, std::uint8_t>> &nodes);
+    void cover(const std::vector<std::pair<unsigned int, std::uint8_t>> &nodes)
+    {
+      hold_all();
+      give_back(covered);
+      for (const auto &[node, faces] : nodes)
+        if (has_walls_alone(node))
+          take_walls(node, faces, covered);
+    }
 
     /// Faces of the box that are not open to soil, bit f: face f.
-    std::uint8_t faces_closed_to_soil() const;
+    std::uint8_t faces_closed_to_soil() const
+    {
+      std::uint8_t faces = 0;
+      for (unsigned int f = 0; f < 2 * dim; ++f)
+        faces |= (walls.walls()[f].type == WallType::open ? 0u : 1u) << f;
+      return faces;
+    }
 
     /// The same, and faces that are not open to water, if there is any.
     std::uint8_t closed_faces() const
@@ -112,15 +142,44 @@ namespace scree
     using NodesAndSets = std::vector<std::pair<unsigned int, unsigned int>>;
 
     /// Takes walls from a node; `before` gets its set.
-    void take_walls(const unsigned int node, const std::uint8_t faces, NodesAndSets &before);
-    void give_back(NodesAndSets &before);
+    void take_walls(const unsigned int node, const std::uint8_t faces, NodesAndSets &before)
+    {
+      const unsigned int set     = set_of_node[node];
+      const std::uint8_t left    = faces_of_set[set] & ~faces;
+      const auto [entry, is_new] = set_of_faces.emplace(left, free);
+      if (is_new && left != 0)
+        if (const NodeConstraints<dim> constraints = of_faces(left, false, false); constraints.any())
+          entry->second = add_set(constraints, free, left);
+      before.emplace_back(node, set);
+      set_of_node[node] = entry->second;
+    }
+    void give_back(NodesAndSets &before)
+    {
+      for (; !before.empty(); before.pop_back()) // A node may be there twice.
+        set_of_node[before.back().first] = before.back().second;
+    }
 
     /// Adds to `sets`; returns the number there.
     /// @param faces see faces_of_set
-    unsigned int add_set(const NodeConstraints<dim> &constraints, const unsigned int inflow, const std::uint8_t faces);
+    unsigned int add_set(const NodeConstraints<dim> &constraints, const unsigned int inflow, const std::uint8_t faces)
+    {
+      sets.push_back(constraints);
+      inflow_of_set.push_back(inflow);
+      faces_of_set.push_back(faces);
+      return sets.size() - 1;
+    }
 
     /// What an inflow does to a node.
-    void add_inflow(const MovedByInflow &inflow, NodeConstraints<dim> &constraints) const;
+    void add_inflow(const MovedByInflow &inflow, NodeConstraints<dim> &constraints) const
+    {
+      if (inflow.soil && !constraints.is_rigid)
+        constraints.soil_velocity = inflow.velocity;
+      if (!water_walls)
+        return;
+      constraints.water_velocity = inflow.velocity;
+      constraints.water_faces    = BearingFaces<dim>();
+      constraints.water_constraint.hold_all();
+    }
 
     const BackgroundGrid<dim> &grid;
     const BoundaryConditions<dim> &walls;

@@ -4,9 +4,6 @@
 
 #include <scree/boundary/wall_impulses.h>
 
-#include <deal.II/base/tensor.h>
-
-#include <array>
 #include <vector>
 
 namespace scree

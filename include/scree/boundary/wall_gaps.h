@@ -4,14 +4,8 @@
 
 #include <scree/boundary/constraints.h>
 #include <scree/mesh/node_values.h>
-#include <scree/particles/point_set.h>
 #include <scree/boundary/body_forces.h>
 #include <scree/mixture/mixture.h>
-
-#include <deal.II/lac/la_parallel_vector.h>
-
-#include <array>
-#include <vector>
 
 namespace scree
 {
@@ -33,7 +27,13 @@ namespace scree
     using Fields = std::vector<const NodalField<dim> *>;
 
     /// Keeps references to both.
-    WallGaps(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints);
+    WallGaps(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints)
+        : grid(grid)
+        , constraints(constraints)
+        , closed_faces(constraints.closed_faces())
+    {
+      reinit();
+    }
 
     /// These move with one velocity and meet the walls, too. They must live on.
     void add(const Fields &fields)
@@ -48,17 +48,49 @@ namespace scree
     }
 
     /// Fits the gaps to the grid's current nodes.
-    void reinit();
+    void reinit()
+    {
+      for (NodeVector &gap : gaps)
+        gap.reinit(grid.numbering().partitioner());
+      released.reinit(grid.numbering().partitioner());
+      closes.reinit(grid.numbering().partitioner());
+      closing.assign(grid.n_owned_nodes(), dealii::Tensor<1, dim>());
+      on_walls.clear();
+      for (unsigned int node = 0; node < grid.numbering().n_local(); ++node)
+        if ((grid.node_faces(node) & closed_faces) != 0)
+          on_walls.push_back(node);
+      clear();
+    }
 
     /// All walls act on all nodes, and no gap is known, before a new step.
-    void clear();
+    void clear()
+    {
+      constraints.hold_all();
+      for (const unsigned int node : on_walls)
+        {
+          for (NodeVector &gap : gaps)
+            gap.local_element(node) = far;
+          released.local_element(node) = 0.;
+          closes.local_element(node)   = 0.;
+          if (node < grid.n_owned_nodes())
+            closing[node] = dealii::Tensor<1, dim>();
+        }
+    }
 
     /// Takes the gaps of points.
     /// @param spacing of the points at the start, m
     void add(const PointSet<dim> &points, const double spacing);
 
     /// Cells that are full of water and wet soil have no gap.
-    void add(const Mixture<dim> &mixture);
+    void add(const Mixture<dim> &mixture)
+    {
+      for (const MixtureCell<dim> &cell : mixture.cells())
+        if (cell.bulk_volume >= closures::full_cell_at_wall * cell.volume)
+          for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+            if (const unsigned int node = grid.nodes(cell.cell)[i]; grid.node_faces(node) != 0)
+              for (NodeVector &gap : gaps)
+                gap.local_element(node) = 0.;
+    }
 
     /// Frees nodes of walls for the step, s. The fields hold mass, momentum and force of owned nodes; of several
     /// `Fields` the one that approaches a wall fastest decides. Collective.
@@ -90,7 +122,15 @@ namespace scree
     }
 
     /// Speed, m/s, up to which a wall acts at once.
-    double slow(const unsigned int face, const double gravity) const;
+    double slow(const unsigned int face, const double gravity) const
+    {
+      if (!constraints.has_water() && !constraints.is_fixed(face))
+        return 0.;
+      if (!constraints.has_water() && gravity == 0.)
+        return std::numeric_limits<double>::infinity(); // Nothing falls.
+      const double fall = constraints.has_water() ? closures::fall_of_wet_soil : closures::fall_onto_fixed_wall;
+      return speed_after_fall(fall, gravity, grid.cell_size());
+    }
 
     const BackgroundGrid<dim> &grid;
     Constraints<dim> &constraints;

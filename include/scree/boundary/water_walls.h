@@ -2,15 +2,7 @@
 #ifndef scree_boundary_water_walls_h
 #define scree_boundary_water_walls_h
 
-#include <scree/mesh/background_grid.h>
-#include <scree/boundary/face_entries.h>
-#include <scree/boundary/node_constraint.h>
-
-#include <deal.II/base/parameter_handler.h>
-
-#include <string>
-#include <utility>
-#include <vector>
+#include <scree/boundary/boundary_conditions.h>
 
 namespace scree
 {
@@ -32,13 +24,20 @@ namespace scree
   /// Subsection Water of subsection Boundaries: one entry a face of the box.
   struct WaterBoundaryParameters : FaceEntries
   {
-    WaterBoundaryParameters();
+    WaterBoundaryParameters()
+        : FaceEntries{ "impermeable", "impermeable", "impermeable", "impermeable", "impermeable", "drained" }
+    {
+    }
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError if an entry does not read as a wall, or is set for a wall that is not there.
-    void check(const unsigned int dim) const;
+    void check(const unsigned int dim) const
+    {
+      walls(3);
+      FaceEntries::check("Boundaries/Water", dim, WaterBoundaryParameters());
+    }
 
     /// The walls in deal.II's numbering of the faces.
     std::vector<WaterWall> walls(const unsigned int dim) const;
@@ -50,16 +49,32 @@ namespace scree
   {
   public:
     /// Reads the entries; throws EntryError if one does not read as a wall.
-    WaterBoundaryConditions(const BackgroundGrid<dim> &grid, const WaterBoundaryParameters &parameters);
+    WaterBoundaryConditions(const BackgroundGrid<dim> &grid, const WaterBoundaryParameters &parameters)
+        : grid(grid)
+        , wall_list(parameters.walls(dim))
+    {
+    }
 
     /// The directions along which the water of a node on these faces may not move.
     ConstrainedDirections<dim> held_directions(const std::uint8_t faces) const;
 
     /// Which of these faces take the impulses on the water.
-    BearingFaces<dim> bearing_faces(const std::uint8_t faces) const;
+    BearingFaces<dim> bearing_faces(const std::uint8_t faces) const
+    {
+      return BearingFaces<dim>(
+          faces,
+          [&](const unsigned int face) { return !is_drained(face); },
+          [&](const unsigned int face) { return wall_list[face].type == WaterWallType::no_slip; });
+    }
 
     /// Whether any of the faces is drained.
-    bool prescribes_pressure(const std::uint8_t faces) const;
+    bool prescribes_pressure(const std::uint8_t faces) const
+    {
+      for (unsigned int f = 0; f < 2 * dim; ++f)
+        if ((faces >> f) & 1 && is_drained(f))
+          return true;
+      return false;
+    }
 
     /// Pressure of the drained ones among the faces, Pa: their mean, or 0 if there is none.
     double pressure(const std::uint8_t faces) const;
@@ -71,10 +86,20 @@ namespace scree
     }
 
     /// The faces that are not drained.
-    std::uint8_t closed_faces() const;
+    std::uint8_t closed_faces() const
+    {
+      std::uint8_t faces = 0;
+      for (unsigned int f = 0; f < 2 * dim; ++f)
+        faces |= (is_drained(f) ? 0u : 1u) << f;
+      return faces;
+    }
 
     /// Name of the face of the box nearest to a point outside, and whether it is drained.
-    std::pair<std::string, bool> face_crossed(const dealii::Point<dim> &location) const;
+    std::pair<std::string, bool> face_crossed(const dealii::Point<dim> &location) const
+    {
+      const unsigned int face = nearest_face(grid, location);
+      return { FaceEntries::names(dim)[face], is_drained(face) };
+    }
 
   private:
     const BackgroundGrid<dim> &grid;

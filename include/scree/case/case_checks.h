@@ -2,13 +2,8 @@
 #ifndef scree_case_case_checks_h
 #define scree_case_case_checks_h
 
-#include <scree/bodies/soil_body.h>
 #include <scree/case/parameters.h>
 #include <scree/io/checkpoint.h>
-
-#include <list>
-#include <string>
-#include <vector>
 
 namespace scree
 {

@@ -2,29 +2,18 @@
 #ifndef scree_case_parameters_h
 #define scree_case_parameters_h
 
-#include <scree/bodies/water_parameters.h>
-#include <scree/boundary/boundary_conditions.h>
 #include <scree/boundary/inflow/inflow_parameters.h>
 #include <scree/boundary/rain.h>
-#include <scree/boundary/water_walls.h>
 #include <scree/contact/contact_parameters.h>
-#include <scree/geometry/bed_parameters.h>
 #include <scree/initial/initial_state.h>
-#include <scree/input/case_entries.h>
 #include <scree/input/input_file.h>
 #include <scree/io/output_parameters.h>
 #include <scree/materials/table.h>
-#include <scree/mesh/background_grid.h>
 #include <scree/momentum/explicit_update.h>
 #include <scree/momentum/surface_load.h>
 #include <scree/postprocess/probes.h>
 #include <scree/schemes/time_step.h>
 #include <scree/seeding/seeding.h>
-#include <scree/transfer/transfer_parameters.h>
-
-#include <deal.II/base/parameter_handler.h>
-
-#include <string>
 
 namespace scree
 {
@@ -39,29 +28,61 @@ namespace scree
     InitialStateParameters initial_state; ///< stress before the first step
 
     /// Declares the body's subsection and its entries.
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(dealii::ParameterHandler &prm)
+    {
+      prm.enter_subsection(name);
+      seeding.add_parameters(prm);
+      seepage.add_parameters(prm);
+      material.add_parameters(prm);
+      initial_state.add_parameters(prm);
+      prm.leave_subsection();
+    }
 
     /// Throws EntryError at impossible combinations of entries.
     /// @param water null in a dry scene
     void check(const std::vector<double> &gravity, const WaterParameters *water) const;
 
     /// Whether the body keeps its place.
-    bool is_rigid() const;
+    bool is_rigid() const
+    {
+      return material.is_rigid();
+    }
 
     /// Volume of pores over total volume, as the entry or the law says.
-    double initial_porosity() const;
+    double initial_porosity() const
+    {
+      return seeding.initial_porosity < 0 ? make_material<2>(material)->initial_porosity() : seeding.initial_porosity;
+    }
 
     /// Density of the dry body, kg/m^3: grains times (1 - porosity).
-    double bulk_density() const;
+    double bulk_density() const
+    {
+      return seeding.grain_density * (1. - initial_porosity());
+    }
 
     /// Horizontal over vertical stress of a K0 start.
-    double k0() const;
+    double k0() const
+    {
+      return initial_state.k0_ratio(material.chosen().sine_of_friction());
+    }
 
     /// Of pressure waves in the dry body at the entry of its pressure, m/s; 0 without stiffness.
-    double wave_speed() const;
+    double wave_speed() const
+    {
+      const auto law = make_material<2>(material);
+      return law->wave_speed(law->initial_bulk_modulus(initial_state.pressure), 0., bulk_density());
+    }
 
   private:
-    void check_rigid() const;
+    void check_rigid() const
+    {
+      require_entry(seeding.initial_velocity.empty(),
+                    { name, "Initial velocity", seeding.initial_velocity },
+                    "\"Material = rigid\" does not move. Remove one of the two.");
+      require_entry(initial_state.stress_kind() == InitialStress::none,
+                    { name + "/Initial state", "Type", initial_state.type },
+                    "the stress of \"Material = rigid\" is not known. Remove the entry.");
+    }
   };
 
   /// Subsection Safety: the search of scree --safety, and a strength that is reduced in a run.
@@ -80,7 +101,12 @@ namespace scree
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at impossible combinations.
-    void check() const;
+    void check() const
+    {
+      require_entry(lower + tolerance < upper,
+                    { "Safety", "Upper factor", upper },
+                    "it must exceed \"Lower factor\" = " + number_text(lower) + " by more than the tolerance.");
+    }
   };
 
   /// Everything a `.prm` file says, checked. Each member's own add_parameters() names its entries.
@@ -156,19 +182,37 @@ namespace scree
     ContactGroups contact_groups() const;
 
     /// Every entry with its value.
-    CaseEntries entries() const;
+    CaseEntries entries() const
+    {
+      CaseEntries result(handler);
+      for (const NamedFile &named : named_files)
+        result.set_file(named);
+      return result;
+    }
 
     /// The text of the file as it was read.
-    const std::string &original() const;
+    const std::string &original() const
+    {
+      return file.text();
+    }
 
     /// An error met later, with file and line before its message.
-    InputError error(const EntryError &error) const;
+    InputError error(const EntryError &error) const
+    {
+      return file.error(error.what());
+    }
 
     /// Writes every entry with its value, default and explanation.
-    void print(std::ostream &out);
+    void print(std::ostream &out)
+    {
+      handler.print_parameters(out, dealii::ParameterHandler::PRM);
+    }
 
     /// All entries in the order of their declaration, with patterns, as JSON.
-    void print_json(std::ostream &out);
+    void print_json(std::ostream &out)
+    {
+      handler.print_parameters(out, dealii::ParameterHandler::JSON | dealii::ParameterHandler::KeepDeclarationOrder);
+    }
 
     /// Writes the paths of the subsections, one per line: all of them, or those of and below one.
     void print_sections(const std::string &path, std::ostream &out);
@@ -178,7 +222,14 @@ namespace scree
     void print_subsection(const std::string &path, std::ostream &out);
 
     /// All entries as a case that lies in `folder`: paths of files count from there.
-    void print_into(const std::string &folder, std::ostream &out);
+    void print_into(const std::string &folder, std::ostream &out)
+    {
+      for (const NamedFile &named : named_files)
+        set(named.subsection, named.entry, std::filesystem::relative(named.path, folder));
+      print(out);
+      for (const NamedFile &named : named_files)
+        set(named.subsection, named.entry, named.path);
+    }
 
   private:
     void name_bodies();
@@ -187,7 +238,14 @@ namespace scree
     /// @param kind `obstacle`, for the message
     std::vector<std::string> named_subsections(const std::string &prefix, const std::string &kind) const;
     void declare(dealii::ParameterHandler &prm);
-    void declare_water(dealii::ParameterHandler &prm);
+    void declare_water(dealii::ParameterHandler &prm)
+    {
+      prm.enter_subsection("Water");
+      water.add_parameters(prm);
+      pressure.add_parameters(prm);
+      prm.leave_subsection();
+      water_boundaries.add_parameters(prm);
+    }
     void take_box_from_raster();
     void take_unit_weights();
     void read_maps();
@@ -196,8 +254,15 @@ namespace scree
     /// Fills `unread_laws`. Throws EntryError if no entry Material chooses the law that is read instead.
     void find_unread_laws(const dealii::ParameterHandler &defaults);
 
-    double size_of_gravity() const; // m/s^2
-    double wave_speed() const;      // of the stiffest body, m/s; 0 without bodies
+    /// m/s^2
+    double size_of_gravity() const
+    {
+      double square = 0;
+      for (const double component : gravity)
+        square += component * component;
+      return std::sqrt(square);
+    }
+    double wave_speed() const; // of the stiffest body, m/s; 0 without bodies
 
     /// The remedy for a subsection that is not declared but looks like that of a body; empty if it does not.
     std::string unlisted_body(const std::string &subsection) const;

@@ -4,15 +4,13 @@
 
 #include <scree/geometry/level_set.h>
 #include <scree/geometry/raster.h>
+#include <scree/input/case_entries.h>
+#include <scree/input/expression.h>
 
-#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
 
 #include <functional>
 #include <map>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace scree
 {
@@ -28,13 +26,25 @@ namespace scree
     double cell_size;            ///< of the mesh, m
 
     /// entry_name(), for messages.
-    std::string where() const;
+    std::string where() const
+    {
+      return entry_name(subsection, entry);
+    }
 
     /// Throws EntryError that names entry and value unless the shape is `possible`.
-    void require(const bool possible, const std::string &remedy) const;
+    void require(const bool possible, const std::string &remedy) const
+    {
+      require_entry(possible, { subsection, entry, value }, remedy);
+    }
 
     /// The same unless ground from `first` to `last` along an axis, but for `rounding`, covers the box; m.
-    void require_cover(const unsigned int axis, const double first, const double last, const double rounding) const;
+    void require_cover(const unsigned int axis, const double first, const double last, const double rounding) const
+    {
+      require(first <= lower[axis] + rounding && last >= upper[axis] - rounding,
+              std::string("the ground reaches from ") + "xyz"[axis] + " = " + number_text(first) + " to " +
+                  number_text(last) +
+                  " m only and does not cover the box of subsection Mesh. Write a longer ground or a smaller box.");
+    }
   };
 
   /// Makes the surface; throws EntryError if the value of the entry or its file is wrong.
@@ -103,7 +113,18 @@ namespace scree
     double turbulent_friction = 0;             ///< xi of Voellmy's law, m/s^2; 0: none; of the bed only
 
     /// Declares the subsection and its entries.
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(dealii::ParameterHandler &prm)
+    {
+      prm.enter_subsection(subsection);
+      add_entries(prm);
+      prm.add_parameter(
+          "Turbulent friction",
+          turbulent_friction,
+          "m/s^2; coefficient xi of the friction of Voellmy, rho g v^2/xi beside that of the angle. 0: none. "
+          "Dry scenes.",
+          dealii::Patterns::Double(0));
+      prm.leave_subsection();
+    }
 
     /// Where the map has the origin of the case's coordinates, m; set once the case is read.
     dealii::Point<2> map_origin;
@@ -115,7 +136,14 @@ namespace scree
     void check(const unsigned int dim) const;
 
     /// Entry `Type` as an enum.
-    BedType type_kind() const;
+    BedType type_kind() const
+    {
+      if (type == "fixed")
+        return BedType::fixed;
+      if (type == "free slip")
+        return BedType::free_slip;
+      return type == "friction" ? BedType::friction : BedType::none;
+    }
 
     /// Whether free water does not slip along it.
     bool no_slip() const
@@ -130,7 +158,18 @@ namespace scree
     }
 
     /// Largest tangential over normal force; infinite if the bed is fixed.
-    double friction_coefficient() const;
+    double friction_coefficient() const
+    {
+      switch (type_kind())
+        {
+        case BedType::fixed:
+          return std::numeric_limits<double>::infinity();
+        case BedType::friction:
+          return std::tan(friction_angle * dealii::numbers::PI / 180.);
+        default:
+          return 0.;
+        }
+    }
 
     /// Entry and value of the shape; empty if none is given.
     std::pair<std::string, std::string> geometry() const;
@@ -159,22 +198,152 @@ namespace scree
     std::string pivot;     ///< of the moment, m, one number an axis; empty: the middle of the box's floor
 
     /// @param subsection prefix and name
-    explicit ObstacleParameters(const std::string &subsection);
+    explicit ObstacleParameters(const std::string &subsection)
+    {
+      surface.subsection = subsection;
+    }
 
     /// Declares the subsection and its entries.
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(dealii::ParameterHandler &prm)
+    {
+      prm.enter_subsection(surface.subsection);
+      surface.add_entries(prm);
+      prm.add_parameter(
+          "Velocity",
+          velocity,
+          "m/s; velocity from t = 0 on: one expression of t per axis, separated by semicolons, such as 0; "
+          "if(t < 1, 0.5, 0). The obstacle translates without rotation. Empty: at rest.");
+      prm.add_parameter("Moment about",
+                        pivot,
+                        "m; place about which the moment on the obstacle is computed, one coordinate per axis. Empty: "
+                        "the middle of the floor of the box.",
+                        dealii::Patterns::List(dealii::Patterns::Double(), 0, 3));
+      prm.leave_subsection();
+    }
 
     /// Throws EntryError at impossible combinations.
-    void check(const unsigned int dim) const;
+    void check(const unsigned int dim) const
+    {
+      surface.check(dim);
+      if (!velocity.empty())
+        parse_expression<1>(entry_name(surface.subsection, "Velocity"), velocity, dim);
+      require_entry(pivot.empty() || dealii::Utilities::split_string_list(pivot).size() == dim,
+                    { surface.subsection, "Moment about", pivot },
+                    "write " + std::to_string(dim) + " numbers in m, separated by commas.");
+    }
 
     /// Without the prefix.
-    std::string name() const;
+    std::string name() const
+    {
+      return surface.subsection.substr(prefix.size());
+    }
 
     /// Whether a velocity is given.
     bool is_moving() const
     {
       return !velocity.empty();
     }
+  };
+
+  /// The surface on which an expression of the coordinates is 0; the open is where it is positive.
+  ///
+  /// It need not be a distance: the foot y of a place x on the surface is found from f(y) = 0 and x - y along grad f(y)
+  /// (@source{chopp2001}). Where that fails, at an edge, the distance is f/|grad f| at x.
+  template <int dim>
+  class ExpressionSurface : public LevelSet<dim>
+  {
+  public:
+    /// @param where entry_name(), for messages
+    /// @param length of what the mesh resolves, m
+    ExpressionSurface(const std::string &where, const std::string &expression, const double length)
+        : function(parse_expression<dim>(where, expression, 1, false, dim == 2 ? "y - 0.2*x" : "z - 0.2*x"))
+        , length(length)
+    {
+    }
+
+    /// Both throw ValueError if the expression is no number there.
+    bool is_open(const dealii::Point<dim> &x) const override;
+    SurfaceView<dim> view(const dealii::Point<dim> &x, const double reach) const override;
+
+  private:
+    /// By central differences.
+    dealii::Tensor<1, dim> gradient(const dealii::Point<dim> &x) const;
+
+    std::unique_ptr<Expression<dim>> function;
+    const double length;
+  };
+
+  /// The ground of a plane scene: a line through points with ascending x; the open is above it. Distances are exact.
+  class Profile : public LevelSet<2>
+  {
+  public:
+    /// @param points at least two, x strictly ascending, m; beyond them the ground goes on level
+    explicit Profile(std::vector<dealii::Point<2>> points);
+
+    /// See LevelSet::is_open().
+    bool is_open(const dealii::Point<2> &x) const override;
+
+    /// See LevelSet::view().
+    SurfaceView<2> view(const dealii::Point<2> &x, const double reach) const override;
+
+    /// Smallest x of the points, m.
+    double first_x() const
+    {
+      return points.front()[0];
+    }
+
+    /// Largest x of the points, m.
+    double last_x() const
+    {
+      return points.back()[0];
+    }
+
+  private:
+    double height(const double x) const;
+
+    /// The segment at a place along x: that between points s and s + 1.
+    unsigned int segment_at(const double x) const;
+
+    std::vector<dealii::Point<2>> points;
+  };
+
+  /// The ground of a scene in space: the heights of a raster, joined by two triangles for each four of them. The open
+  /// is above it, and where a height is missing; the ground ends there in vertical walls. Distances are exact.
+  class HeightSurface : public LevelSet<3>
+  {
+  public:
+    /// @param raster heights, m, at least 2 x 2
+    explicit HeightSurface(Raster raster);
+
+    /// See LevelSet::is_open().
+    bool is_open(const dealii::Point<3> &x) const override;
+
+    /// See LevelSet::view().
+    SurfaceView<3> view(const dealii::Point<3> &x, const double reach) const override;
+    std::string remark() const override
+    {
+      return raster.remark_on_heights("Bed",
+                                      "There is no ground around them: it ends in vertical walls, and soil falls past "
+                                      "them. Fill holes of the data first, for instance with gdal_fillnodata.");
+    }
+
+  private:
+    /// Whether the four heights from a column and a row on are known.
+    bool has_ground(const unsigned int column, const unsigned int row) const
+    {
+      return !std::isnan(raster(column, row) + raster(column + 1, row) + raster(column, row + 1) +
+                         raster(column + 1, row + 1));
+    }
+
+    /// Height of the ground, m; NaN where it is missing.
+    double height(const double x, const double y) const;
+
+    dealii::Point<3> node(const unsigned int column, const unsigned int row) const
+    {
+      return { raster.x + column * raster.spacing, raster.y + row * raster.spacing, raster(column, row) };
+    }
+
+    const Raster raster;
   };
 } // namespace scree
 

@@ -4,8 +4,10 @@
 
 #include <deal.II/base/point.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace scree
@@ -45,12 +47,25 @@ namespace scree
   {
   public:
     /// @param parts at least one; they must live on
-    explicit JoinedSurface(std::vector<const LevelSet<dim> *> parts);
+    explicit JoinedSurface(std::vector<const LevelSet<dim> *> parts)
+        : parts(std::move(parts))
+    {
+    }
 
-    bool is_open(const dealii::Point<dim> &x) const override;
+    bool is_open(const dealii::Point<dim> &x) const override
+    {
+      return std::all_of(parts.begin(), parts.end(), [&](const LevelSet<dim> *part) { return part->is_open(x); });
+    }
 
     /// The part that is nearest, or deepest around `x`: a distance outside, inside several of them less than that.
-    SurfaceView<dim> view(const dealii::Point<dim> &x, const double reach) const override;
+    SurfaceView<dim> view(const dealii::Point<dim> &x, const double reach) const override
+    {
+      SurfaceView<dim> nearest = parts[0]->view(x, reach);
+      for (unsigned int i = 1; i < parts.size(); ++i)
+        if (const SurfaceView<dim> other = parts[i]->view(x, reach); other.distance < nearest.distance)
+          nearest = other;
+      return nearest;
+    }
 
   private:
     const std::vector<const LevelSet<dim> *> parts;

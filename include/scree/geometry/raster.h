@@ -2,9 +2,11 @@
 #ifndef scree_geometry_raster_h
 #define scree_geometry_raster_h
 
+
 #include <deal.II/base/point.h>
 
-
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,7 +43,10 @@ namespace scree
     }
 
     /// Values that are missing.
-    std::size_t n_missing() const;
+    std::size_t n_missing() const
+    {
+      return std::count_if(values.begin(), values.end(), [](const double value) { return std::isnan(value); });
+    }
 
     /// Smallest and largest value; infinity and minus infinity if all are missing.
     std::pair<double, double> range() const;

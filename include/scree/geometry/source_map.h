@@ -3,16 +3,8 @@
 #define scree_geometry_source_map_h
 
 #include <scree/geometry/bed_parameters.h>
-#include <scree/geometry/level_set.h>
-#include <scree/geometry/raster.h>
 
-#include <deal.II/base/parameter_handler.h>
-
-#include <memory>
 #include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace scree
 {
@@ -42,7 +34,14 @@ namespace scree
     }
 
     /// Entry and value of the first that is given, for messages.
-    std::pair<std::string, std::string> first() const;
+    std::pair<std::string, std::string> first() const
+    {
+      if (!thickness.empty())
+        return { "Thickness", thickness };
+      if (!upper_surface.empty())
+        return { "Upper surface", upper_surface };
+      return { "Outline", outline };
+    }
   };
 
   /// The part of space that a body's maps bound: above its bed, by less than a thickness or up to an upper surface,
@@ -64,7 +63,18 @@ namespace scree
               const std::vector<double> &upper);
 
     /// Whether a place, m, is inside the body.
-    bool contains(const dealii::Point<3> &x) const;
+    bool contains(const dealii::Point<3> &x) const
+    {
+      if (outline && !outline->contains({ x[0], x[1] }))
+        return false;
+      if (upper_surface && !(x[2] < upper_surface->value_at(x[0], x[1])))
+        return false;
+      const double part = thickness ? thickness->value_or_zero_at(x[0], x[1]) : 0.;
+      if (thickness && !(part > 0.))
+        return false;
+      // Less than a thickness above the ground is what would be below it by that much less.
+      return !ground || (ground->is_open(x) && (!thickness || !ground->is_open({ x[0], x[1], x[2] - part })));
+    }
 
     /// Whether maps alone bound the body below and above, so that part_of_line() may be asked.
     bool is_layer() const
@@ -74,8 +84,18 @@ namespace scree
 
     /// The heights, m, between which the body is above x, y of the map and above ground, as far as they are between two
     /// others; nothing is there if the second is not larger. The ground must not overhang.
-    std::pair<double, double>
-    part_of_line(const double x, const double y, const double lower, const double upper) const;
+    std::pair<double, double> part_of_line(const double x, const double y, const double lower, const double upper) const
+    {
+      const std::pair<double, double> nothing{ lower, lower };
+      const double part = thickness ? thickness->value_or_zero_at(x, y) : 0.;
+      const double over = upper_surface ? upper_surface->value_at(x, y) : upper;
+      if ((thickness && !(part > 0.)) || !(over > lower) || (outline && !outline->contains({ x, y })))
+        return nothing;
+      double top = std::min(upper, over);
+      if (thickness)
+        top = std::min(top, part + ground_between(x, y, lower - part, upper - part));
+      return { ground_between(x, y, lower, upper), top };
+    }
 
     /// Remarks on the heights of its surfaces for the log, in lines; empty: none.
     /// @param body its name
@@ -89,7 +109,21 @@ namespace scree
     void check(const std::string &body, const dealii::Point<3> &lower, const dealii::Point<3> &upper) const;
 
     /// The height, m, between two others from which on a place above x, y of the map is above ground.
-    double ground_between(const double x, const double y, const double lower, const double upper) const;
+    double ground_between(const double x, const double y, const double lower, const double upper) const
+    {
+      if (!ground || ground->is_open({ x, y, lower }))
+        return lower;
+      if (!ground->is_open({ x, y, upper }))
+        return upper;
+      constexpr unsigned int n_halvings = 24;
+      double below = lower, above = upper;
+      for (unsigned int i = 0; i < n_halvings; ++i)
+        {
+          const double middle                                 = 0.5 * (below + above);
+          (ground->is_open({ x, y, middle }) ? above : below) = middle;
+        }
+      return above;
+    }
 
     const std::shared_ptr<const LevelSet<3>> ground;
     std::optional<Raster> thickness, upper_surface;

@@ -2,19 +2,8 @@
 #ifndef scree_initial_geostatic_h
 #define scree_initial_geostatic_h
 
-#include <scree/bodies/soil_body.h>
-#include <scree/bodies/water_parameters.h>
 #include <scree/bodies/water_phase.h>
 #include <scree/initial/steady_seepage.h>
-#include <scree/mesh/background_grid.h>
-#include <scree/particles/region.h>
-#include <scree/seeding/seeding.h>
-
-#include <deal.II/base/tensor.h>
-
-#include <functional>
-#include <map>
-#include <vector>
 
 namespace scree
 {

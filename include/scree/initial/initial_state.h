@@ -2,11 +2,7 @@
 #ifndef scree_initial_initial_state_h
 #define scree_initial_initial_state_h
 
-#include <deal.II/base/parameter_handler.h>
-
-#include <optional>
-#include <string>
-#include <vector>
+#include <scree/particles/region.h>
 
 namespace scree
 {
@@ -32,11 +28,19 @@ namespace scree
     void check(const std::string &body, const std::vector<double> &gravity) const;
 
     /// Entry `Type` as an enum.
-    InitialStress stress_kind() const;
+    InitialStress stress_kind() const
+    {
+      return type == "K0" ? InitialStress::k0 : type == "isotropic" ? InitialStress::isotropic : InitialStress::none;
+    }
 
     /// Entry `K0` as a number; auto: 1 - sin(phi) of normally consolidated soil (@source{jaky1944}), 0.5 without an
     /// angle.
-    double k0_ratio(const std::optional<double> &sine_of_friction) const;
+    double k0_ratio(const std::optional<double> &sine_of_friction) const
+    {
+      if (k0 != "auto")
+        return number_of(k0);
+      return sine_of_friction ? 1. - *sine_of_friction : 0.5;
+    }
   };
 
   /// Subsection Settling: motion under gravity with damping, before the release at t = 0. Water keeps its place and its
@@ -52,7 +56,20 @@ namespace scree
 
     /// Throws EntryError at impossible combinations.
     /// @param gravity m/s^2
-    void check(const std::vector<double> &gravity) const;
+    void check(const std::vector<double> &gravity) const
+    {
+      const std::size_t dim = gravity.size();
+      require_entry(maximum_time == 0 || std::count(gravity.begin(), gravity.end(), 0.) < long(dim),
+                    { "Settling", "Maximum time", maximum_time },
+                    "without gravity nothing settles. Change entry \"Gravity\", or write 0.");
+      require_entry(gate.empty() || maximum_time > 0,
+                    { "Settling", "Gate", gate },
+                    "it holds only while the soil settles. Write a \"Maximum time\" above 0, or remove it.");
+      if (!gate.empty() && dim == 2)
+        Region<2>(entry_name("Settling", "Gate"), gate);
+      if (!gate.empty() && dim == 3)
+        Region<3>(entry_name("Settling", "Gate"), gate);
+    }
   };
 } // namespace scree
 

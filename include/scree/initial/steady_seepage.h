@@ -2,20 +2,10 @@
 #ifndef scree_initial_steady_seepage_h
 #define scree_initial_steady_seepage_h
 
-#include <scree/bodies/water_parameters.h>
 #include <scree/boundary/water_walls.h>
-#include <scree/geometry/level_set.h>
-#include <scree/mesh/background_grid.h>
-#include <scree/particles/cell_places.h>
 #include <scree/seeding/seeding.h>
 
 #include <deal.II/base/function_lib.h>
-
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace scree
 {
@@ -58,7 +48,11 @@ namespace scree
     }
 
     /// Whether a place is beyond this face of the box.
-    bool is_beyond(const dealii::Point<dim> &x, const unsigned int face) const;
+    bool is_beyond(const dealii::Point<dim> &x, const unsigned int face) const
+    {
+      const unsigned int a = face / 2;
+      return face % 2 == 0 ? x[a] < grid.lower_corner()[a] : x[a] > grid.upper_corner()[a];
+    }
 
     /// The head of a wall at a height of it, m: NaN where water only leaves, nothing if it is closed there.
     std::optional<double> head_of_wall(const unsigned int face, const double height) const;
@@ -83,7 +77,15 @@ namespace scree
     double exit_height        = 0;     ///< elevation of the highest face in air where water leaves, m; NaN: nowhere
 
     /// A line for the log.
-    std::string text(const unsigned int dim) const;
+    std::string text(const unsigned int dim) const
+    {
+      const std::string unit = dim == 2 ? " m^2/s" : " m^3/s";
+      return "Steady seepage: " + number_text(inflow) + unit + " in, " + number_text(outflow_in_air) +
+             " out through faces in air" +
+             (std::isnan(exit_height) ? "" : " up to " + number_text(exit_height) + " m") + ", " +
+             number_text(outflow_below) + " out below given heads; " + std::to_string(n_iterations) + " iterations" +
+             (has_converged ? "" : ", not converged. Use the pressure with care");
+    }
   };
 
   /// The pressure head of steady seepage at the corners of the cells with soil, on every rank. As a level set its open
@@ -104,7 +106,10 @@ namespace scree
     std::pair<double, dealii::Tensor<1, dim>> pressure_head(const dealii::Point<dim> &x) const;
 
     /// See LevelSet::is_open(): whether the pressure is negative or unknown.
-    bool is_open(const dealii::Point<dim> &x) const override;
+    bool is_open(const dealii::Point<dim> &x) const override
+    {
+      return !(pressure_head(x).first >= 0.);
+    }
 
     /// See LevelSet::view(): of the surface without pressure, to first order.
     SurfaceView<dim> view(const dealii::Point<dim> &x, const double reach) const override;

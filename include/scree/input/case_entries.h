@@ -2,13 +2,14 @@
 #ifndef scree_input_case_entries_h
 #define scree_input_case_entries_h
 
+#include <scree/input/input_error.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <boost/crc.hpp>
 
+#include <algorithm>
 #include <cstdint>
-#include <string>
-#include <vector>
 
 namespace scree
 {
@@ -66,10 +67,24 @@ namespace scree
     std::string text() const;
 
     /// Writes the file that an entry names as the case has it, and adds its checksum.
-    void set_file(const NamedFile &file);
+    void set_file(const NamedFile &file)
+    {
+      for (CaseEntry &entry : entries)
+        if (entry.subsection == file.subsection && entry.name == file.entry)
+          {
+            entry.value    = file.written;
+            entry.checksum = file.checksum;
+          }
+    }
 
     /// The entry, or nullptr if there is none.
-    const CaseEntry *find(const std::string &subsection, const std::string &name) const;
+    const CaseEntry *find(const std::string &subsection, const std::string &name) const
+    {
+      const auto found = std::find_if(entries.begin(), entries.end(), [&](const CaseEntry &entry) {
+        return entry.subsection == subsection && entry.name == name;
+      });
+      return found == entries.end() ? nullptr : &*found;
+    }
 
     /// Whether there are entries of that subsection.
     bool has_subsection(const std::string &path) const;

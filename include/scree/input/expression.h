@@ -2,10 +2,12 @@
 #ifndef scree_input_expression_h
 #define scree_input_expression_h
 
+#include <scree/input/input_error.h>
+
 #include <deal.II/base/function_parser.h>
 
+#include <cmath>
 #include <memory>
-#include <string>
 
 namespace scree
 {
@@ -15,10 +17,25 @@ namespace scree
   {
   public:
     /// @param name entry_name() and text, for messages
-    Expression(const std::string &name, const unsigned int n_components, const bool with_time);
+    Expression(const std::string &name, const unsigned int n_components, const bool with_time)
+        : dealii::FunctionParser<dim>(n_components)
+        , name(name)
+        , with_time(with_time)
+    {
+    }
 
     /// Throws ValueError, with entry and place, if the value is not a finite number.
-    double value(const dealii::Point<dim> &x, const unsigned int component = 0) const override;
+    double value(const dealii::Point<dim> &x, const unsigned int component = 0) const override
+    {
+      const double result = dealii::FunctionParser<dim>::value(x, component);
+      if (!std::isfinite(result))
+        throw ValueError(name + ": it is " + (std::isnan(result) ? "not a number" : "infinite") + " at " +
+                         (dim == 1 ? "t = " : "") + number_text(x) + (dim == 1 ? " s" : " m") +
+                         (with_time ? ", t = " + number_text(this->get_time()) + " s" : "") +
+                         ". Write an expression that is a number wherever it is asked for, for instance with if(" +
+                         (dim == 1 ? 't' : 'x') + " > 0, ..., ...).");
+      return result;
+    }
 
   private:
     const std::string name;

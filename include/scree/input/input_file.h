@@ -3,13 +3,8 @@
 #define scree_input_input_file_h
 
 #include <scree/input/case_entries.h>
-#include <scree/input/input_error.h>
-
-#include <deal.II/base/parameter_handler.h>
 
 #include <functional>
-#include <string>
-#include <vector>
 
 namespace scree
 {
@@ -86,7 +81,12 @@ namespace scree
     std::string value(const std::string &subsection, const std::string &entry, const std::string &otherwise) const;
 
     /// Whether the file sets the entry of the subsection.
-    bool sets(const std::string &subsection, const std::string &entry) const;
+    bool sets(const std::string &subsection, const std::string &entry) const
+    {
+      return std::any_of(statements.begin(), statements.end(), [&](const Statement &statement) {
+        return statement.kind == Kind::set && statement.path == subsection && statement.name == entry;
+      });
+    }
 
     /// Whether the file has a subsection of that path.
     bool has_subsection(const std::string &path) const;

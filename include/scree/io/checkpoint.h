@@ -10,11 +10,6 @@
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 
-#include <cstdint>
-#include <functional>
-#include <string>
-#include <vector>
-
 namespace scree
 {
   /// One file of a checkpoint, as it was written.

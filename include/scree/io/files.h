@@ -2,6 +2,9 @@
 #ifndef scree_io_files_h
 #define scree_io_files_h
 
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
 #include <mpi.h>
 
 #include <chrono>
@@ -50,7 +53,10 @@ namespace scree
   {
   public:
     /// @param file path; it is made with the first row
-    explicit RowFile(const std::string &file);
+    explicit RowFile(const std::string &file)
+        : file(file)
+    {
+    }
 
     /// Whether there is no row yet: the first one brings the head of the file along.
     bool is_empty() const
@@ -144,13 +150,33 @@ namespace scree
     ~BackgroundWriter();
 
     /// Begins the job after those before it, of which it waits for all but one. Collective.
-    void start(FileJob job);
+    void start(FileJob job)
+    {
+      while (jobs.size() > 1)
+        end_stage();
+      jobs.push_back(std::move(job));
+      if (jobs.size() == 1)
+        begin_job();
+    }
 
     /// Goes on with what has been written, without waiting. Collective; throws what `failed` of a job does.
-    void look();
+    void look()
+    {
+      while (!jobs.empty())
+        {
+          const int is_ready = running.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+          if ((n_ranks > 1 ? dealii::Utilities::MPI::min(is_ready, communicator) : is_ready) == 0)
+            return;
+          end_stage();
+        }
+    }
 
     /// Waits for all jobs. Collective; throws like look().
-    void finish();
+    void finish()
+    {
+      while (!jobs.empty())
+        end_stage();
+    }
 
     /// The longest time that a job took, s.
     double longest() const
@@ -162,11 +188,29 @@ namespace scree
     BackgroundWriter &operator=(const BackgroundWriter &) = delete;
 
   private:
-    void begin_job();
+    void begin_job()
+    {
+      begin = std::chrono::steady_clock::now();
+      stage = 0;
+      begin_stage();
+    }
     void begin_stage();
 
     /// Waits for the stage and begins the next one, or ends the job. Collective.
-    void end_stage();
+    void end_stage()
+    {
+      std::string fault = running.get();
+      if (n_ranks > 1)
+        {
+          const unsigned int rank  = dealii::Utilities::MPI::this_mpi_process(communicator);
+          const unsigned int first = dealii::Utilities::MPI::min(fault.empty() ? n_ranks : rank, communicator);
+          fault = first < n_ranks ? dealii::Utilities::MPI::broadcast(communicator, fault, first) : "";
+        }
+      if (fault.empty() && stage < jobs.front().stages.size())
+        begin_stage();
+      else
+        end_job(fault);
+    }
     void end_job(const std::string &fault);
 
     const MPI_Comm communicator;

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <map>
 #include <string>
 
 namespace scree
@@ -83,13 +84,25 @@ namespace scree
     void check(const double end_time) const;
 
     /// Entry `Screen` as an enum.
-    Screen screen_kind() const;
+    Screen screen_kind() const
+    {
+      static const std::map<std::string, Screen> table{ { "progress", Screen::progress },
+                                                        { "statistics", Screen::statistics },
+                                                        { "nothing", Screen::nothing } };
+      return table.at(screen);
+    }
 
     /// Entry `Graphics` as an enum.
-    Pictures graphics_kind() const;
+    Pictures graphics_kind() const
+    {
+      return graphics == "none" ? Pictures::none : graphics == "points" ? Pictures::points : Pictures::points_and_grid;
+    }
 
     /// Time between rows of statistics, s; that of pictures by default.
-    double interval_of_statistics() const;
+    double interval_of_statistics() const
+    {
+      return statistics_interval > 0 ? statistics_interval : interval;
+    }
   };
 
   /// When a run writes what: all times are s of the run.
@@ -98,7 +111,13 @@ namespace scree
   public:
     /// Takes the intervals of the entries; begin() comes next.
     /// @param end_time of the run, s
-    OutputTimes(const OutputParameters &parameters, const double end_time);
+    OutputTimes(const OutputParameters &parameters, const double end_time)
+        : picture_interval(parameters.interval)
+        , row_interval(parameters.interval_of_statistics())
+        , checkpoint_interval(parameters.checkpoint_interval)
+        , end_time(end_time)
+    {
+    }
 
     /// From here on, what is due comes after `time`.
     void begin(const double time);
@@ -107,18 +126,36 @@ namespace scree
     double next(const double largest_step) const;
 
     /// Whether the run ends at a time, s, within rounding.
-    bool is_end(const double time) const;
+    bool is_end(const double time) const
+    {
+      return reached(time, end_time);
+    }
 
     /// Whether a picture is due at a time, s.
-    bool picture_is_due(const double time) const;
+    bool picture_is_due(const double time) const
+    {
+      return reached(time, picture);
+    }
 
     /// Whether a row of the statistics is due at a time, s.
-    bool row_is_due(const double time) const;
+    bool row_is_due(const double time) const
+    {
+      return reached(time, row);
+    }
 
     /// Whether a checkpoint is due at a time, s; never if the interval is 0.
-    bool checkpoint_is_due(const double time) const;
+    bool checkpoint_is_due(const double time) const
+    {
+      return checkpoint_interval > 0 && reached(time, checkpoint);
+    }
 
   private:
+    /// Times that differ by rounding only are one.
+    static bool reached(const double time, const double due)
+    {
+      return time >= due * (1. - 1e-12);
+    }
+
     const double picture_interval, row_interval, checkpoint_interval, end_time;
     double picture = 0, row = 0, checkpoint = 0;
   };

@@ -7,8 +7,7 @@
 
 #include <deal.II/base/timer.h>
 
-#include <string>
-#include <vector>
+#include <numeric>
 
 namespace scree
 {
@@ -45,10 +44,20 @@ namespace scree
     /// @param start_time s, of the run or of the checkpoint
     /// @param end_time s
     /// @param place_column heading of what report() shows of the motion, such as `front 90 % (m)`
-    Progress(RunFolder &folder, const double start_time, const double end_time, const std::string &place_column);
+    Progress(RunFolder &folder, const double start_time, const double end_time, const std::string &place_column)
+        : folder(folder)
+        , start_time(start_time)
+        , end_time(end_time)
+        , place_column(place_column)
+    {
+    }
 
     /// Whether the last line of this rank is some seconds old.
-    bool is_due() const;
+    bool is_due() const
+    {
+      constexpr double seconds_between_lines = 5.;
+      return clock.wall_time() - last_line >= seconds_between_lines;
+    }
 
     /// Writes a line of the table, before the first one its heading.
     /// @param time s
@@ -96,8 +105,14 @@ namespace scree
   private:
     /// What bounded the steps, and how many of them.
     std::string text_of_limits() const;
-    double percent(const StepLimit limit) const;
-    unsigned long long n_steps() const;
+    double percent(const StepLimit limit) const
+    {
+      return n_steps() > 0 ? 100. * counts[static_cast<unsigned int>(limit)] / n_steps() : 0.;
+    }
+    unsigned long long n_steps() const
+    {
+      return std::accumulate(counts.begin(), counts.end(), 0ull);
+    }
 
     RunFolder &folder;
     const double start_time, end_time;

@@ -2,16 +2,14 @@
 #ifndef scree_io_run_folder_h
 #define scree_io_run_folder_h
 
+#include <scree/input/input_error.h>
 #include <scree/io/files.h>
 
-#include <mpi.h>
-
+#include <filesystem>
 #include <fstream>
-#include <functional>
+#include <iostream>
 #include <memory>
 #include <set>
-#include <string>
-#include <vector>
 
 namespace scree
 {
@@ -27,20 +25,46 @@ namespace scree
     void remove_old_results();
 
     /// Writes a file of the folder with the given text, see write_whole_file().
-    void write(const std::string &name, const std::string &text) const;
+    void write(const std::string &name, const std::string &text) const
+    {
+      if (writer)
+        write_whole_file(file(name), text);
+    }
 
     /// Throws EntryError on all ranks if somebody has removed the folder. Collective.
-    void require_presence() const;
+    void require_presence() const
+    {
+      throw_on_all_ranks(
+          !writer || is_present()
+              ? ""
+              : entry_message({ "", "Output directory", path },
+                              "it was removed or renamed while the run wrote to it. Leave it alone until "
+                              "the run has ended, and start anew."),
+          communicator);
+    }
 
     /// Lets `write` write a file that can wait. If the disk does not take it, standard error has that once, and the run
     /// goes on.
     void try_to_write(const std::string &name, const std::function<void()> &write);
 
     /// Adds lines to `log.txt` and, if asked, to the screen.
-    void log(const std::string &lines);
+    void log(const std::string &lines)
+    {
+      record(lines);
+      if (writer && to_screen)
+        std::cout << lines << std::endl;
+    }
 
     /// Adds lines to `log.txt` alone: details that the screen leaves out.
-    void record(const std::string &lines);
+    void record(const std::string &lines)
+    {
+      if (!writer)
+        return;
+      log_file << lines << std::endl;
+      if (!log_file)
+        tell_once("log.txt", error_of_writing(file("log.txt"), lines.size() + 1).what());
+      log_file.clear();
+    }
 
     /// Path of a file in the folder.
     std::string file(const std::string &name) const
@@ -62,9 +86,27 @@ namespace scree
 
   private:
     /// Returns what is wrong, in words; empty if nothing is.
-    std::string open();
-    bool is_present() const;
-    void tell_once(const std::string &name, const std::string &fault);
+    std::string open()
+    {
+      std::error_code error;
+      std::filesystem::create_directories(file("solution"), error);
+      if (!error)
+        log_file.open(file("log.txt"), std::ios::app);
+      if (error || !log_file)
+        return "the run cannot write there: " + (error ? error.message() : "no file can be written there") +
+               ". Name a folder in which you may write.";
+      lock = std::make_unique<FolderLock>(file("lock"));
+      return lock->refusal();
+    }
+    bool is_present() const
+    {
+      return std::filesystem::is_directory(file("solution"));
+    }
+    void tell_once(const std::string &name, const std::string &fault)
+    {
+      if (refused.insert(name).second)
+        std::cerr << "scree: " + fault + '\n' << std::flush;
+    }
 
     const std::string path;
     const bool to_screen;

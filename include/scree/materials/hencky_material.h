@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 #ifndef scree_materials_hencky_material_h
 #define scree_materials_hencky_material_h
 
@@ -9,7 +8,6 @@
 
 #include <deal.II/base/exceptions.h>
 
-#include <string>
 #include <utility>
 
 namespace scree

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 #ifndef scree_materials_material_h
 #define scree_materials_material_h
 
@@ -9,9 +8,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 

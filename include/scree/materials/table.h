@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 #ifndef scree_materials_table_h
 #define scree_materials_table_h
 
@@ -18,16 +17,30 @@ namespace scree
     std::string law = "Nor-Sand"; ///< entry Material: name of the chosen law
 
     /// With the default values of all laws.
-    MaterialParameters();
-    MaterialParameters(const MaterialParameters &other);     ///< copies the entries of all laws
-    MaterialParameters(MaterialParameters &&) = default;     ///< takes the entries of all laws
-    MaterialParameters &operator=(MaterialParameters other); ///< copies or takes the entries of all laws
+    MaterialParameters()
+    {
+      for (const RegisteredLaw &one : registered_laws())
+        all[one.name] = one.copy(*one.entries);
+    }
+    MaterialParameters(const MaterialParameters &other); ///< copies the entries of all laws
+    MaterialParameters(MaterialParameters &&) = default; ///< takes the entries of all laws
+
+    /// Copies or takes the entries of all laws.
+    MaterialParameters &operator=(MaterialParameters other)
+    {
+      std::swap(law, other.law);
+      std::swap(all, other.all);
+      return *this;
+    }
 
     /// Declare entry and subsections inside whatever subsection `prm` has entered.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Check the chosen law; `subsection` is the path of the enclosing subsection for messages, e.g. "Soil".
-    void check(const std::string &subsection) const;
+    void check(const std::string &subsection) const
+    {
+      chosen().check(path(subsection));
+    }
 
     /// Divides the strength of the chosen law by a factor, for a safety of slopes. Returns whether it has any.
     bool divide_strength(const double factor);
@@ -52,11 +65,19 @@ namespace scree
     std::string path(const std::string &subsection) const;
 
     /// Entry and value of the modulus that limits elastic strains, in the body's `subsection`, as messages begin.
-    std::string modulus_text(const std::string &subsection) const;
+    std::string modulus_text(const std::string &subsection) const
+    {
+      const LawEntry modulus = chosen().modulus();
+      return entry_name(path(subsection), modulus.name) + " = " + number_text(modulus.value);
+    }
 
     /// Throws EntryError that names the entry of the law, in the body's `subsection`, which makes waves so fast that a
     /// run is too long, and the `remedy`.
-    [[noreturn]] void throw_too_stiff(const std::string &subsection, const std::string &remedy) const;
+    [[noreturn]] void throw_too_stiff(const std::string &subsection, const std::string &remedy) const
+    {
+      const LawEntry entry = chosen().stiffest();
+      throw EntryError(entry_message({ path(subsection), entry.name, number_text(entry.value) }, remedy));
+    }
 
   private:
     std::map<std::string, std::unique_ptr<LawEntries>> all; // by the laws' names
@@ -73,11 +94,32 @@ namespace scree
   {
   public:
     /// Reads the expression. Throws EntryError, which names the entry in this subsection, if it is none.
-    PlaceVariableValues(const PlaceVariable &variable, const std::string &subsection);
+    PlaceVariableValues(const PlaceVariable &variable, const std::string &subsection)
+        : variable(variable)
+        , name(entry_name(subsection, variable.entry) + " = " + variable.expression)
+        , expression(parse_expression<dim>(entry_name(subsection, variable.entry),
+                                           variable.expression,
+                                           1,
+                                           false,
+                                           "5e3 - 2e3*y"))
+    {
+    }
 
     /// Sets the variable at a place. Throws ValueError if the value is not positive, or beyond what the law can follow.
     /// @param depth below the surface, m
-    void set(const dealii::Point<dim> &place, const double depth, double *internal_variables) const;
+    void set(const dealii::Point<dim> &place, const double depth, double *internal_variables) const
+    {
+      const double value = expression->value(place) + variable.gradient * depth;
+      const auto fault   = [&](const std::string &remedy) {
+        return ValueError(name + ": the value at " + number_text(place) + " m is " + number_text(value) + ". " +
+                          remedy);
+      };
+      if (!(value > 0))
+        throw fault("Write an expression that is positive in the whole body.");
+      if (value > variable.largest)
+        throw fault("Beyond " + number_text(variable.largest) + ", " + variable.remedy);
+      internal_variables[variable.number] = value;
+    }
 
   private:
     const PlaceVariable variable;

@@ -3,14 +3,13 @@
 #define scree_mesh_background_grid_h
 
 #include <scree/deal_ii_versions.h>
-#include <scree/mesh/fine_cells.h>
+#include <scree/input/input_error.h>
 #include <scree/mesh/node_numbering.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/fe/mapping_cartesian.h>
 
-#include <string>
-#include <vector>
+#include <map>
 
 namespace scree
 {
@@ -29,13 +28,26 @@ namespace scree
     void check(const unsigned int dim) const;
 
     /// Entry `Basis` as an enum.
-    Basis basis_kind() const;
+    Basis basis_kind() const
+    {
+      static const std::map<std::string, Basis> table{ { "spline", Basis::spline }, { "linear", Basis::linear } };
+      return table.at(basis);
+    }
 
     /// Cells of this size along an axis of the box.
-    long n_cells_along(const unsigned int axis) const;
+    long n_cells_along(const unsigned int axis) const
+    {
+      return std::lround((upper_corner[axis] - lower_corner[axis]) / cell_size);
+    }
 
     /// Cells of this size that fill the box.
-    double n_cells() const;
+    double n_cells() const
+    {
+      double n = 1;
+      for (unsigned int a = 0; a < upper_corner.size(); ++a)
+        n *= n_cells_along(a);
+      return n;
+    }
 
     /// Whether cells are larger where no points are: in boxes of many cells. Few take less memory than the program, and
     /// so little time that to follow the points would cost more.
@@ -78,7 +90,10 @@ namespace scree
 
     /// Builds the nodes for the current mesh and partition. Collective; called again after a repartition and after
     /// refine().
-    void distribute_nodes();
+    void distribute_nodes()
+    {
+      nodes_of_mesh.distribute(cells);
+    }
 
     /// The blocks of all ranks with a margin around them, or all of the box if that makes little difference.
     /// Collective.
@@ -90,7 +105,15 @@ namespace scree
     void refine(const Blocks &blocks, const Shares shares);
 
     /// This rank's blocks of fine cells.
-    Blocks fine_blocks() const;
+    Blocks fine_blocks() const
+    {
+      Blocks blocks;
+      for (const auto &cell : cells.cells())
+        if (cells.is_owned(cell))
+          blocks.push_back(cell.number >> dim);
+      make_unique(blocks);
+      return blocks;
+    }
 
     /// Whether cells may be larger than the fine ones where no points are.
     bool follows_points() const

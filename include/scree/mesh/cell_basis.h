@@ -5,12 +5,9 @@
 #include <scree/geometry/open_part.h>
 #include <scree/simd/batch.h>
 
-#include <deal.II/base/point.h>
-#include <deal.II/base/quadrature.h>
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/utilities.h>
 
-#include <array>
-#include <cstdint>
 #include <numeric>
 
 namespace scree
@@ -52,7 +49,17 @@ namespace scree
     void add(const Simplex<dim> &simplex);
 
     /// The Gauss points along an axis.
-    static const Along &points();
+    static const Along &points()
+    {
+      static const Along result = [] {
+        const dealii::QGauss<1> rule(n_1d);
+        Along points;
+        for (unsigned int q = 0; q < n_1d; ++q)
+          points[q] = rule.point(q)[0];
+        return points;
+      }();
+      return result;
+    }
   };
 
   /// The walls of the box that a cell touches, where the splines have open knots: bit 2 a for the lower face of axis a,

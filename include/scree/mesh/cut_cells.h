@@ -2,10 +2,7 @@
 #ifndef scree_mesh_cut_cells_h
 #define scree_mesh_cut_cells_h
 
-#include <scree/mesh/cell_basis.h>
 #include <scree/mesh/discrete_level_set.h>
-
-#include <algorithm>
 
 namespace scree
 {
@@ -60,10 +57,25 @@ namespace scree
   public:
     /// Both are kept by reference.
     /// @param thinnest open part of a cell beside ground that moves, cells: what is thinner counts as closed
-    CutCells(const BackgroundGrid<dim> &grid, const RigidBoundary<dim> &ground, const double thinnest = 0.);
+    CutCells(const BackgroundGrid<dim> &grid, const RigidBoundary<dim> &ground, const double thinnest = 0.)
+        : grid(grid)
+        , ground(ground)
+        , thinnest(thinnest)
+        , unit_cube(simplices_of_cube(dealii::Point<dim>(), 1.))
+    {
+      reinit();
+    }
 
     /// Looks at the cells anew, after the ground has.
-    void reinit();
+    void reinit()
+    {
+      entry_of_cell.assign(grid.triangulation().n_active_cells(), none);
+      cut_cells.clear();
+      all_segments.clear();
+      for (const auto &cell : grid.fine_cells().cells())
+        if (grid.fine_cells().is_owned(cell))
+          look_at(cell.index);
+    }
 
     /// The same on the mesh as it was, where ground moves.
     void follow();

@@ -4,13 +4,9 @@
 
 #include <scree/geometry/level_set.h>
 #include <scree/mesh/background_grid.h>
-#include <scree/simd/batch.h>
 
-#include <array>
-#include <limits>
 #include <optional>
 #include <unordered_map>
-#include <vector>
 
 namespace scree
 {
@@ -36,10 +32,18 @@ namespace scree
     /// Looks at the surface from the grid's current cells. Collective; throws EntryError if an expression is no number
     /// at one of the corners.
     /// @param displacement from where the level set has it, m; 0 unless it may move
-    void reinit(const dealii::Tensor<1, dim> &displacement = {});
+    void reinit(const dealii::Tensor<1, dim> &displacement = {})
+    {
+      place(displacement);
+      look();
+    }
 
     /// The same on the mesh as it was, at little cost. Collective.
-    void move_to(const dealii::Tensor<1, dim> &displacement);
+    void move_to(const dealii::Tensor<1, dim> &displacement)
+    {
+      if (place(displacement))
+        look();
+    }
 
     /// How far from the surface cells are near, m.
     double reach() const
@@ -70,7 +74,13 @@ namespace scree
     double distance_of(const unsigned int cell,
                        const dealii::Point<dim> &place,
                        const dealii::Point<dim> &x,
-                       const double enough = 0.) const;
+                       const double enough = 0.) const
+    {
+      if (!is_near(cell))
+        return reach();
+      const double seen = view(cell, place).distance;
+      return seen >= enough || is_moving() ? seen : std::max(seen, surface.view(x, grid.cell_size()).distance);
+    }
 
     /// A place, m, where the surface at rest encloses less than a cell, so that cells see it wrong; none on other
     /// ranks.
@@ -89,9 +99,25 @@ namespace scree
     }
 
     /// Returns whether the lattice lies in other cells now.
-    bool place(const dealii::Tensor<1, dim> &displacement);
+    bool place(const dealii::Tensor<1, dim> &displacement)
+    {
+      const CellPlace<dim> before = whole_cells;
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          const double cells = displacement[a] / grid.cell_size();
+          whole_cells[a]     = static_cast<int>(std::floor(cells));
+          part_of_cell[a]    = cells - whole_cells[a];
+        }
+      return whole_cells != before;
+    }
 
-    void look();
+    void look()
+    {
+      entry_of_cell.assign(grid.triangulation().n_active_cells(), none);
+      corners.clear();
+      least.clear();
+      on_all_ranks(grid.communicator(), [&] { sample(); });
+    }
     void sample();
 
     /// The surface from a corner of the lattice.
@@ -142,22 +168,49 @@ namespace scree
     }
 
     /// Whether a part that may move is near a cell.
-    bool moves_near(const unsigned int cell) const;
+    bool moves_near(const unsigned int cell) const
+    {
+      return any_moves && std::any_of(all_parts.begin(), all_parts.end(), [cell](const GroundPart<dim> &part) {
+               return part.velocity != nullptr && part.samples->is_near(cell);
+             });
+    }
 
     /// Number of parts that are near a cell.
-    unsigned int n_near(const unsigned int cell) const;
+    unsigned int n_near(const unsigned int cell) const
+    {
+      return std::count_if(all_parts.begin(), all_parts.end(), [cell](const GroundPart<dim> &part) {
+        return part.samples->is_near(cell);
+      });
+    }
 
     /// As DiscreteLevelSet: the least of all parts'.
-    double least_distance(const unsigned int cell) const;
+    double least_distance(const unsigned int cell) const
+    {
+      double least = std::numeric_limits<double>::infinity();
+      for (const GroundPart<dim> &part : all_parts)
+        least = std::min(least, part.samples->least_distance(cell));
+      return least;
+    }
 
     /// The part that is nearest to a place (from 0 to 1) in a cell that is near one, or deepest around it.
     unsigned int nearest_part(const unsigned int cell, const dealii::Point<dim> &place) const;
 
     /// As DiscreteLevelSet, of the nearest part.
-    SurfaceView<dim> view(const unsigned int cell, const dealii::Point<dim> &place) const;
+    SurfaceView<dim> view(const unsigned int cell, const dealii::Point<dim> &place) const
+    {
+      const unsigned int part = all_parts.size() == 1 ? 0 : nearest_part(cell, place);
+      return all_parts[part].samples->view(cell, place);
+    }
 
     /// As DiscreteLevelSet, from a cell that is near a part.
-    Batch distances(const unsigned int cell, const std::array<Batch, dim> &places) const;
+    Batch distances(const unsigned int cell, const std::array<Batch, dim> &places) const
+    {
+      Batch nearest = simd::broadcast<Batch>(std::numeric_limits<double>::infinity());
+      for (const GroundPart<dim> &part : all_parts)
+        if (part.samples->is_near(cell))
+          nearest = simd::min<Batch>(nearest, part.samples->distances(cell, places));
+      return nearest;
+    }
 
   private:
     const std::vector<GroundPart<dim>> all_parts;

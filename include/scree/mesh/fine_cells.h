@@ -4,11 +4,12 @@
 
 #include <scree/particles/cell_places.h>
 
+#include <deal.II/base/utilities.h>
 #include <deal.II/distributed/tria.h>
+#include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
 #include <functional>
-#include <vector>
 
 namespace scree
 {
@@ -54,7 +55,18 @@ namespace scree
     FineCells(const dealii::parallel::distributed::Triangulation<dim> &mesh, const CellsOfBox<dim> &box);
 
     /// Finds them on the current mesh, and sets the CellUse of all cells. Collective.
-    void reinit();
+    void reinit()
+    {
+      list_cells();
+      make_table();
+      if (triangulation.n_global_active_cells() == cells_of_box.n_cells())
+        return; // All cells are inner ones.
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned() && holds_nodes(cell))
+          if (!is_inner(cell_list[entry_of_index[cell->active_cell_index()]].place))
+            cell->set_user_index(static_cast<unsigned int>(CellUse::edge));
+      exchange_uses();
+    }
 
     /// Cells of this rank and its ghosts.
     const std::vector<Cell> &cells() const
@@ -102,10 +114,28 @@ namespace scree
     void make_table();
 
     /// Whether all neighbours of a cell in the box are fine.
-    bool is_inner(const CellPlace<dim> &place) const;
+    bool is_inner(const CellPlace<dim> &place) const
+    {
+      for (unsigned int i = 0; i < unsigned(dealii::Utilities::pow(3, dim)); ++i)
+        {
+          CellPlace<dim> neighbour = place;
+          for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= 3)
+            neighbour[a] += int(rest % 3) - 1;
+          if (cells_of_box.contains(neighbour) && find(neighbour) == none)
+            return false;
+        }
+      return true;
+    }
 
     /// Tells other ranks which of this rank's cells are at the edge. Collective.
-    void exchange_uses() const;
+    void exchange_uses() const
+    {
+      using CellIterator = typename dealii::Triangulation<dim>::active_cell_iterator;
+      dealii::GridTools::exchange_cell_data_to_ghosts<unsigned int, dealii::parallel::distributed::Triangulation<dim>>(
+          triangulation,
+          [](const CellIterator &cell) { return std::optional<unsigned int>(cell->user_index()); },
+          [](const CellIterator &cell, const unsigned int &use) { cell->set_user_index(use); });
+    }
 
     const dealii::parallel::distributed::Triangulation<dim> &triangulation;
     const CellsOfBox<dim> cells_of_box;

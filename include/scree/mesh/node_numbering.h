@@ -5,10 +5,10 @@
 #include <scree/mesh/cell_basis.h>
 #include <scree/mesh/fine_cells.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/partitioner.h>
 
 #include <memory>
-#include <vector>
 
 namespace scree
 {
@@ -34,7 +34,10 @@ namespace scree
   {
   public:
     /// No nodes yet.
-    explicit NodeNumbering(const Basis basis);
+    explicit NodeNumbering(const Basis basis)
+        : basis(basis)
+    {
+    }
 
     /// Numbers the nodes of the fine cells. Collective.
     void distribute(const FineCells<dim> &cells);
@@ -112,7 +115,18 @@ namespace scree
     home(const CellPlace<dim> &cell, const unsigned int i, const CellPlace<dim> &n) const;
 
     /// Numbers the nodes that live in this rank's cells, from 0.
-    Homes number_own(const FineCells<dim> &cells, unsigned int &n_owned) const;
+    Homes number_own(const FineCells<dim> &cells, unsigned int &n_owned) const
+    {
+      const unsigned int n_nodes = n_nodes_per_cell();
+      Homes homes(cells.cells().size() * n_nodes, none);
+      n_owned = 0;
+      for (unsigned int c = 0; c < cells.cells().size(); ++c)
+        if (const Cell &cell = cells.cells()[c]; cells.is_owned(cell))
+          for (unsigned int i = 0; i < n_nodes; ++i)
+            if (home(cell.place, i, cells.box().n).first == cell.place)
+              homes[std::size_t(c) * n_nodes + i] = n_owned++;
+      return homes;
+    }
 
     /// Makes the numbers those of all ranks, and fetches those of the ghost cells. Collective.
     void exchange(const FineCells<dim> &cells, const dealii::types::global_dof_index first, Homes &homes) const;

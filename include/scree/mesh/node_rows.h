@@ -4,8 +4,6 @@
 
 #include <scree/mesh/cell_basis.h>
 
-#include <cstring>
-
 namespace scree
 {
   /// The up to three nodes of a cell along the first axis, as one register (the fourth lane stays 0). A compiler vector

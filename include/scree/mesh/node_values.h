@@ -3,11 +3,8 @@
 #define scree_mesh_node_values_h
 
 #include <scree/mesh/background_grid.h>
-#include <scree/mesh/node_numbering.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
-
-#include <vector>
 
 namespace scree
 {

@@ -3,17 +3,8 @@
 #define scree_mixture_mixture_h
 
 #include <scree/mesh/cut_cells.h>
-#include <scree/simd/batch.h>
 
-#include <deal.II/base/point.h>
-#include <deal.II/base/utilities.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <utility>
-#include <vector>
+#include <deal.II/base/geometry_info.h>
 
 namespace scree
 {
@@ -282,16 +273,43 @@ namespace scree
   public:
     /// @param soil_points of a cell along each axis at the start; of the body that has fewest
     /// @param cut_cells what rigid ground leaves of the cells; null: all
-    Mixture(const BackgroundGrid<dim> &grid, const unsigned int soil_points, const CutCells<dim> *cut_cells = nullptr);
+    Mixture(const BackgroundGrid<dim> &grid, const unsigned int soil_points, const CutCells<dim> *cut_cells = nullptr)
+        : grid(grid)
+        , soil_points(soil_points)
+        , cell_volume(dealii::Utilities::fixed_power<dim>(grid.cell_size()))
+        , cut_cells(cut_cells)
+    {
+      reinit();
+    }
 
     /// Fits the mixture to the grid's current cells.
-    void reinit();
+    void reinit()
+    {
+      records.clear();
+      record_of_cell.assign(grid.triangulation().n_active_cells(), dealii::numbers::invalid_unsigned_int);
+    }
 
     /// Empties the mixture, before a new step.
-    void clear();
+    void clear()
+    {
+      for (const MixtureCell<dim> &cell : records)
+        record_of_cell[cell.cell] = dealii::numbers::invalid_unsigned_int;
+      records.clear();
+      porosities.clear();
+      entering_water.clear();
+    }
 
     /// The number of a cell's record, which is made if there is none.
-    unsigned int record(const unsigned int cell);
+    unsigned int record(const unsigned int cell)
+    {
+      unsigned int &record = record_of_cell[cell];
+      if (record == dealii::numbers::invalid_unsigned_int)
+        {
+          record = records.size();
+          records.emplace_back(cell, cell_volume * (cut_cells ? cut_cells->open_fraction(cell) : 1.));
+        }
+      return record;
+    }
 
     /// Masses of the cells times a factor.
     void scale_inertia(const double factor)
@@ -310,7 +328,16 @@ namespace scree
     /// Counts a volume of water, m^3, about a place of a cell, from 0 to 1 along each axis, for which there is no point
     /// yet: where an inflow is between two layers. It fills the cell's vertices, if points have brought water there,
     /// and has no other effect.
-    void add_entering(const unsigned int cell, const dealii::Point<dim> &place, const double volume);
+    void add_entering(const unsigned int cell, const dealii::Point<dim> &place, const double volume)
+    {
+      const unsigned int record = record_of_cell[cell];
+      if (record == dealii::numbers::invalid_unsigned_int || records[record].water_volume <= 0)
+        return;
+      EnteringWater<dim> entering{ cell, {} };
+      for (unsigned int v = 0; v < entering.at_vertex.size(); ++v)
+        entering.at_vertex[v] = volume * dealii::GeometryInfo<dim>::d_linear_shape_function(place, v);
+      entering_water.push_back(entering);
+    }
 
     /// Sums of add_entering().
     const std::vector<EnteringWater<dim>> &entering() const

@@ -2,23 +2,10 @@
 #ifndef scree_model_scene_h
 #define scree_model_scene_h
 
-#include <scree/boundary/body_forces.h>
-#include <scree/boundary/constraints.h>
-#include <scree/boundary/inflow/inflow.h>
-#include <scree/boundary/rain.h>
 #include <scree/case/memory.h>
-#include <scree/case/parameters.h>
 #include <scree/initial/steady_seepage.h>
-#include <scree/mesh/cut_cells.h>
-#include <scree/mesh/fine_cells.h>
 #include <scree/postprocess/statistics.h>
 #include <scree/schemes/explicit_scheme.h>
-#include <scree/schemes/scheme.h>
-
-#include <deal.II/base/timer.h>
-
-#include <list>
-#include <optional>
 
 namespace scree
 {
@@ -64,7 +51,11 @@ namespace scree
     let_in(const double time, const double time_step, const PressureOfCell<dim> &pressure, RunBalance<dim> &totals);
 
     /// Moves the obstacles to where they are after the step. Collective.
-    void move_obstacles(const double time_step);
+    void move_obstacles(const double time_step)
+    {
+      for (Obstacle<dim> &obstacle : obstacles)
+        obstacle.end_step(time_step);
+    }
 
     /// Whether obstacles may move in water, so that cut_cells have to follow them.
     bool wet_ground_moves() const
@@ -73,13 +64,27 @@ namespace scree
     }
 
     /// Adds the speeds of the obstacles at a time, s.
-    void include_obstacles(Speeds &speeds, const double time) const;
+    void include_obstacles(Speeds &speeds, const double time) const
+    {
+      for (const Obstacle<dim> &obstacle : obstacles)
+        speeds.include_point(obstacle.velocity_at(time).norm());
+    }
 
     /// Adds the speeds of what enters.
     void include_inflows(Speeds &speeds) const;
 
     /// A line for the log about each inflow.
-    std::vector<std::string> texts_of_inflows() const;
+    std::vector<std::string> texts_of_inflows() const
+    {
+      std::vector<std::string> texts;
+      for (const Inflow<dim> &inflow : inflows)
+        texts.push_back("Inflow " + inflow.name + ": " + number_text(inflow.area()) + (dim == 2 ? " m" : " m^2") +
+                        " are open; " + std::to_string(inflow.places().size()) + " points a layer of " + inflow.body);
+      if (rain)
+        texts.push_back("Rain: on " + number_text(rain->area()) + (dim == 2 ? " m" : " m^2") + ", in drops of " +
+                        number_text(rain->volume()) + (dim == 2 ? " m^2" : " m^3"));
+      return texts;
+    }
 
     /// Fits what depends on the mesh and its partition to them. Collective.
     void reinit();
@@ -100,10 +105,21 @@ namespace scree
     void require_steps(const double stable_step, const Speeds &speeds) const;
 
     /// Soil and water do not move in this region of a gate until it is opened. Collective.
-    void close_gate(const std::string &region);
+    void close_gate(const std::string &region)
+    {
+      const auto make_region = [&] { return std::make_unique<Region<dim>>(entry_name("Settling", "Gate"), region); };
+      constraints.close_gate(make_region());
+      if (walls_alone)
+        walls_alone->close_gate(make_region());
+    }
 
     /// Removes the constraints of close_gate().
-    void open_gate();
+    void open_gate()
+    {
+      constraints.open_gate();
+      if (walls_alone)
+        walls_alone->open_gate();
+    }
 
     /// Stops all points: no velocity, no affine field of velocity.
     void stop();
@@ -141,7 +157,18 @@ namespace scree
 
   private:
     /// Walls do not act where obstacles that move cover them.
-    void uncover_walls();
+    void uncover_walls()
+    {
+      if (std::none_of(obstacles.begin(), obstacles.end(), [](const auto &obstacle) { return obstacle.is_moving; }))
+        return;
+      std::vector<std::pair<unsigned int, std::uint8_t>> covered;
+      for (const Obstacle<dim> &obstacle : obstacles)
+        if (obstacle.is_moving)
+          obstacle.add_covered_nodes(covered);
+      constraints.cover(covered);
+      if (walls_alone)
+        walls_alone->cover(covered);
+    }
 
     void make_bodies();
     void join_ground();
@@ -156,7 +183,12 @@ namespace scree
     SeepageSurvey<dim> seepage_survey() const;
 
     /// Holds the nodes of rigid bodies, for soil that sticks to them. Collective.
-    void hold_rigid_nodes();
+    void hold_rigid_nodes()
+    {
+      constraints.hold_soil(rigid_nodes());
+      if (walls_alone)
+        walls_alone->reinit();
+    }
 
     /// What holds the nodes of each group of bodies that stick to each other.
     std::vector<Constraints<dim> *> constraints_of_groups();
@@ -178,7 +210,21 @@ namespace scree
                                 double *properties) const;
 
     /// Tells the nodes which inflow moves them. Until the next step begins they are at rest.
-    void hold_at_inflows();
+    void hold_at_inflows()
+    {
+      if (inflows.empty())
+        return;
+      std::vector<unsigned int> inflow_of_node(grid.numbering().n_local(), Constraints<dim>::free);
+      std::vector<typename Constraints<dim>::MovedByInflow> moved;
+      for (const Inflow<dim> &inflow : inflows)
+        {
+          for (unsigned int node = 0; node < inflow_of_node.size(); ++node)
+            if (inflow.is_open && inflow.moves(node))
+              inflow_of_node[node] = moved.size();
+          moved.push_back({ dealii::Tensor<1, dim>(), inflow.brings_soil });
+        }
+      constraints.set_inflows(inflow_of_node, moved);
+    }
 
     /// A point that enters.
     struct Entrant
@@ -221,7 +267,21 @@ namespace scree
     void fill_entrant(const Entrant &entrant,
                       const WaterPhase<dim> &phase,
                       const std::array<double, (1 << dim)> &pressure,
-                      std::vector<double> &properties) const;
+                      std::vector<double> &properties) const
+    {
+      const auto &layout        = phase.layout;
+      properties[layout.mass]   = phase.density * entrant.volume;
+      properties[layout.volume] = entrant.volume;
+      for (unsigned int v = 0; v < pressure.size(); ++v)
+        {
+          properties[layout.pressure] +=
+              pressure[v] * dealii::GeometryInfo<dim>::d_linear_shape_function(entrant.place, v);
+          const dealii::Tensor<1, dim> slope =
+              dealii::GeometryInfo<dim>::d_linear_shape_function_gradient(entrant.place, v);
+          for (unsigned int a = 0; a < dim; ++a)
+            properties[layout.pressure_gradient + a] += pressure[v] * slope[a] / grid.cell_size();
+        }
+    }
     void require_points_outside_obstacles() const;
 
     /// The bed and the obstacles: what points in contact have slots for, in this order.

@@ -6,9 +6,7 @@
 
 #include <deal.II/distributed/tria.h>
 
-#include <array>
 #include <functional>
-#include <vector>
 
 namespace scree
 {
@@ -50,7 +48,10 @@ namespace scree
     }
 
     /// What happened since the last call was waiting.
-    void resume();
+    void resume()
+    {
+      last = thread_time();
+    }
 
     /// Whether a new partition pays: since the last one, the slowest rank took longer beyond the mean than a
     /// repartition does. Before the first step: whether ranks hold unequal numbers of points. Looks once in some steps.
@@ -69,7 +70,11 @@ namespace scree
 
     /// Time of the slowest ranks over the mean of all, work by work, without waiting; 1 where nothing was measured.
     /// Collective.
-    double imbalance();
+    double imbalance()
+    {
+      collect();
+      return sum_of_mean > 0. ? sum_of_largest / sum_of_mean : 1.;
+    }
 
     /// How often since the first step.
     unsigned int n_repartitions() const
@@ -97,10 +102,23 @@ namespace scree
     /// Closes the steps that are under way; returns the works that a partition can even out, by Weights. Collective.
     std::array<WorkOfRanks, 3> collect();
 
-    double number_of_points() const;
+    double number_of_points() const
+    {
+      double n_points = 0;
+      for (const PointSet<dim> *points : sets)
+        n_points += points->n_points();
+      return n_points;
+    }
 
     /// What contacts of this rank's points with the ground take, by its cells, s a step.
-    double contacts() const;
+    double contacts() const
+    {
+      double sum = 0;
+      for (const PointSet<dim> *points : sets)
+        for (const auto &cell : points->cells())
+          sum += cell.n_points * points->costs().of_contacts(cell.cell);
+      return sum;
+    }
 
     /// Means of the measured costs, set by set, and this rank's calibration; collective.
     void find_typical_costs();

@@ -2,16 +2,14 @@
 #ifndef scree_particles_point_lists_h
 #define scree_particles_point_lists_h
 
+#include <scree/particles/cell_places.h>
+
 #include <deal.II/base/config.h>
-#include <deal.II/base/point.h>
 #include <deal.II/grid/tria.h>
 #include <deal.II/particles/particle_handler.h>
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <type_traits>
-#include <vector>
 
 namespace scree
 {
@@ -119,6 +117,9 @@ namespace scree
       }
   }
 
+  template <int dim>
+  class CellTable;
+
   /// A cell of the mesh as its points need it.
   template <int dim>
   struct TableCell
@@ -126,7 +127,22 @@ namespace scree
     using Iterator = typename dealii::Triangulation<dim>::active_cell_iterator; ///< iterator over the cells of the mesh
 
     /// Reads a cell of the mesh; its neighbours are not known yet.
-    explicit TableCell(const Iterator &iterator);
+    explicit TableCell(const Iterator &iterator)
+        : iterator(iterator)
+        , index(iterator->active_cell_index())
+        , corner(iterator->vertex(0))
+    {
+      neighbours.fill(CellTable<dim>::none - 1);
+      // The mesh's first vertex is the lower corner of the box.
+      const dealii::Point<dim> lower = iterator->get_triangulation().get_vertices()[0];
+      CellPlace<dim> place;
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          width[a] = iterator->vertex(1 << a)[a] - corner[a];
+          place[a] = static_cast<int>(std::lround((corner[a] - lower[a]) / width[a]));
+        }
+      number = curve_number<dim>(place);
+    }
 
     /// Place of `x` in the cell, as by deal.II's MappingCartesian, to the last digit.
     ///
@@ -160,10 +176,25 @@ namespace scree
     static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int; ///< stands for no cell
 
     /// Removes all cells, when the mesh changes.
-    void clear();
+    void clear()
+    {
+      cells.clear();
+      numbers.clear();
+    }
 
     /// The number of a cell in the table; it is added if it is not there.
-    unsigned int number_of(const Iterator &cell);
+    unsigned int number_of(const Iterator &cell)
+    {
+      if (numbers.empty())
+        numbers.assign(cell->get_triangulation().n_active_cells(), none);
+      unsigned int &number = numbers[cell->active_cell_index()];
+      if (number == none)
+        {
+          number = cells.size();
+          cells.emplace_back(cell);
+        }
+      return number;
+    }
 
     /// The cell of a number that number_of() has returned.
     const TableCell<dim> &operator[](const unsigned int number) const
@@ -199,7 +230,11 @@ namespace scree
     };
 
     /// Keeps references to both; list_all() fills the lists.
-    PointLists(dealii::Particles::ParticleHandler<dim> &handler, CellTable<dim> &table);
+    PointLists(dealii::Particles::ParticleHandler<dim> &handler, CellTable<dim> &table)
+        : handler(handler)
+        , table(table)
+    {
+    }
 
     /// Lists filled cells and their slots anew, as the handler has them.
     void list_all();
@@ -272,7 +307,16 @@ namespace scree
     /// Appends a cell with `n` of its slots and those entrants from `entrant` on that are its own to the new lists;
     /// returns the first one that is not.
     const Entrant *
-    append_cell(const FilledCell &cell, const unsigned int *first_slot, const Entrant *entrant, const Entrant *end);
+    append_cell(const FilledCell &cell, const unsigned int *first_slot, const Entrant *entrant, const Entrant *end)
+    {
+      new_slots.insert(new_slots.end(), first_slot, first_slot + cell.n_points);
+      unsigned int n_points = cell.n_points;
+      for (; entrant != end && entrant->number == cell.number; ++entrant, ++n_points)
+        new_slots.push_back(entrant->slot);
+      if (n_points > 0)
+        new_filled.push_back({ cell.number, cell.in_table, n_points });
+      return entrant;
+    }
 
     /// Makes cells() from the lists.
     void point_to_records();

@@ -2,23 +2,19 @@
 #ifndef scree_particles_point_set_h
 #define scree_particles_point_set_h
 
-#include <scree/particles/cell_places.h>
+#include <scree/deal_ii_versions.h>
 #include <scree/particles/point_lists.h>
 #include <scree/simd/records.h>
 
-#include <deal.II/base/point.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 #include <deal.II/fe/mapping.h>
 #include <deal.II/grid/cell_id.h>
-#include <deal.II/particles/particle_handler.h>
 #include <deal.II/particles/property_pool.h>
 
 #include <chrono>
-#include <cmath>
-#include <cstddef>
-#include <limits>
 #include <map>
 #include <memory>
-#include <vector>
 
 namespace scree
 {
@@ -34,10 +30,17 @@ namespace scree
   {
   public:
     /// Nothing is measured before the first call.
-    void reinit(const unsigned int n_cells);
+    void reinit(const unsigned int n_cells)
+    {
+      cells.assign(n_cells, Cell());
+      is_wanted = is_timed = false;
+    }
 
     /// Asks for the next pass to be timed. Others cost a branch a cell.
-    void time_next_pass();
+    void time_next_pass()
+    {
+      is_wanted = !cells.empty();
+    }
 
     /// Whether it will be.
     bool is_due() const
@@ -78,17 +81,36 @@ namespace scree
     }
 
     /// Adds a measurement, s a point.
-    void add(const unsigned int cell, const double seconds);
+    void add(const unsigned int cell, const double seconds)
+    {
+      Cell &own = cells[cell];
+      own.sum += seconds;
+      own.largest = std::max(own.largest, seconds);
+      ++own.n_measurements;
+    }
 
     /// Seconds a point of the cell: the mean of its measurements without the largest, since the system may have
     /// interrupted the rank in that one; `otherwise` if there are none.
-    double of_point(const unsigned int cell, const double otherwise) const;
+    double of_point(const unsigned int cell, const double otherwise) const
+    {
+      if (cell >= cells.size() || cells[cell].n_measurements == 0)
+        return otherwise;
+      const Cell &own = cells[cell];
+      return own.n_measurements == 1 ? own.sum : (own.sum - own.largest) / (own.n_measurements - 1);
+    }
 
     /// Adds the time, s, that contacts of the cell's points took in a step whose next pass is_due().
-    void add_contacts(const unsigned int cell, const unsigned int n_points, const double seconds);
+    void add_contacts(const unsigned int cell, const unsigned int n_points, const double seconds)
+    {
+      cells[cell].contacts += seconds / n_points;
+    }
 
     /// Seconds that contacts of a point of the cell take, the mean over its measured passes; 0 without any.
-    double of_contacts(const unsigned int cell) const;
+    double of_contacts(const unsigned int cell) const
+    {
+      return cell < cells.size() && cells[cell].n_measurements > 0 ? cells[cell].contacts / cells[cell].n_measurements
+                                                                   : 0.;
+    }
 
   private:
     using TimeStepper = std::chrono::steady_clock;
@@ -130,10 +152,17 @@ namespace scree
     using CellIterator = typename CellTable<dim>::Iterator; ///< iterator over the cells of the mesh
 
     /// @param triangulation mesh of the points; must live on
-    explicit PointExchange(const dealii::Triangulation<dim> &triangulation);
+    explicit PointExchange(const dealii::Triangulation<dim> &triangulation)
+        : mesh(triangulation)
+    {
+    }
 
     /// Adds a point to those that leave for the rank of this ghost cell.
-    void add(const CellIterator &cell, PointRecord<dim> &record);
+    void add(const CellIterator &cell, PointRecord<dim> &record)
+    {
+      record.cell = cell->id().template to_binary<dim>();
+      emigrants[cell->subdomain_id()].push_back(record);
+    }
 
     /// Whether no point of this rank leaves.
     bool is_empty() const
@@ -192,10 +221,20 @@ namespace scree
     /// Hands every point to the cell and rank it lies in, and brings the records of a cell together in memory:
     /// deal.II's sort, for any state of the handler. Collective. Points outside the mesh leave the set and are appended
     /// to lost().
-    void sort();
+    void sort()
+    {
+      particle_handler.sort_particles_into_subdomains_and_cells();
+      n_moved = 0;
+      list_all_cells();
+      set_places(); // as hand_over() does: those of deal.II 9.6 and later differ in the last digit
+    }
 
     /// The same after cells() moved, at the cost of the points that leave their cells. Collective.
-    void hand_over();
+    void hand_over()
+    {
+      const int disorder = static_cast<int>(update_places());
+      hand_over(static_cast<Disorder>(dealii::Utilities::MPI::max(disorder, communicator_of(mesh))));
+    }
 
     /// The first half of hand_over(), of this rank alone: sets the points' places in their cells, and takes those out
     /// that left for another rank. What is left to do is for the other half, with the largest answer of all ranks.
@@ -209,10 +248,19 @@ namespace scree
     void add(const typename dealii::Triangulation<dim>::active_cell_iterator &cell,
              const dealii::Point<dim> &location,
              const dealii::types::particle_index id,
-             const std::vector<double> &properties);
+             const std::vector<double> &properties)
+    {
+      const unsigned int number = table.number_of(cell);
+      const unsigned int slot   = insert_into(number, location, id, dealii::make_array_view(properties));
+      lists.insert(number, slot);
+    }
 
     /// Puts the added points into the lists.
-    void finish_adding();
+    void finish_adding()
+    {
+      if (lists.has_entrants())
+        lists.update();
+    }
 
     /// Takes all points off the mesh, before its cells are refined or coarsened.
     void lift();
@@ -229,7 +277,13 @@ namespace scree
     }
 
     /// Whether all cells() are inner ones, as a step needs it.
-    bool is_in_inner_cells() const;
+    bool is_in_inner_cells() const
+    {
+      const auto &filled = lists.filled_cells();
+      return std::all_of(filled.begin(), filled.end(), [this](const auto &cell) {
+        return use_of(table[cell.in_table].iterator) == CellUse::inner;
+      });
+    }
 
     /// This rank's cells that hold points, in an order that depends on the cells' places only. Valid until the points
     /// move on.
@@ -246,7 +300,15 @@ namespace scree
 
     /// The lasting numbers of the points of cells()[cell], in their order: unique in the set over all ranks; a point
     /// keeps its own from cell to cell, rank to rank and through checkpoints.
-    std::vector<dealii::types::particle_index> ids(const unsigned int cell) const;
+    std::vector<dealii::types::particle_index> ids(const unsigned int cell) const
+    {
+      const auto &pool                   = particle_handler.get_property_pool();
+      const ConstCellPoints<dim> &points = lists.cells()[cell];
+      std::vector<dealii::types::particle_index> result;
+      for (unsigned int p = 0; p < points.n_points; ++p)
+        result.push_back(pool.get_id(points.slots[p]));
+      return result;
+    }
 
     /// The lasting number of the point that is added next, the same on all ranks.
     dealii::types::particle_index next_id = 0;
@@ -316,22 +378,47 @@ namespace scree
     void take_out(const Leaver &leaver, Record &record);
 
     /// Puts it into the cell with this number in the table, or among the emigrants.
-    void hand_on(const unsigned int to, Record &record);
+    void hand_on(const unsigned int to, Record &record)
+    {
+      const CellIterator &cell = table[to].iterator;
+      if (cell->is_locally_owned())
+        {
+          insert(to, record);
+          return;
+        }
+      emigrants.add(cell, record);
+    }
 
     /// Gives the handler a point of the cell with this number in the table; returns its slot.
     unsigned int insert_into(const unsigned int number,
                              const dealii::Point<dim> &location,
                              const dealii::types::particle_index id,
-                             const dealii::ArrayView<const double> &properties);
+                             const dealii::ArrayView<const double> &properties)
+    {
+      const auto place = table[number].template place_of<double>(location);
+      dealii::Point<dim> reference_location;
+      std::copy(place.begin(), place.end(), &reference_location[0]);
+      return particle_handler.insert_particle(location, reference_location, id, table[number].iterator, properties)
+          ->get_local_index();
+    }
 
     /// The same with a point that becomes an entrant.
-    void insert(const unsigned int number, const Record &record);
+    void insert(const unsigned int number, const Record &record)
+    {
+      const unsigned int slot = insert_into(number, record.location, record.id, record.properties);
+      lists.insert(number, slot);
+    }
 
     /// Takes out the points in cells beyond the walls.
     void lose_points_outside();
 
     /// Makes cells() anew, as the handler has them.
-    void list_all_cells();
+    void list_all_cells()
+    {
+      lose_points_outside();
+      lists.list_all();
+      at_edge = !is_in_inner_cells();
+    }
 
     const dealii::Triangulation<dim> &mesh;
     const unsigned int n_properties;

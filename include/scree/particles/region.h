@@ -2,19 +2,10 @@
 #ifndef scree_particles_region_h
 #define scree_particles_region_h
 
-#include <scree/geometry/level_set.h>
 #include <scree/geometry/source_map.h>
-#include <scree/input/expression.h>
 #include <scree/particles/point_set.h>
 
 #include <deal.II/base/function.h>
-#include <deal.II/grid/tria.h>
-
-#include <functional>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace scree
 {

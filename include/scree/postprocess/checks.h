@@ -2,23 +2,10 @@
 #ifndef scree_postprocess_checks_h
 #define scree_postprocess_checks_h
 
-#include <scree/bodies/soil_body.h>
-#include <scree/bodies/water_phase.h>
 #include <scree/boundary/body_forces.h>
-#include <scree/io/progress.h>
-#include <scree/io/run_folder.h>
-#include <scree/mesh/background_grid.h>
-#include <scree/mesh/discrete_level_set.h>
 #include <scree/postprocess/statistics.h>
 
 #include <boost/serialization/array.hpp>
-#include <boost/serialization/string.hpp>
-#include <boost/serialization/vector.hpp>
-
-#include <array>
-#include <list>
-#include <string>
-#include <vector>
 
 namespace scree
 {
@@ -43,7 +30,13 @@ namespace scree
     RunChecks(const BackgroundGrid<dim> &grid,
               const dealii::Tensor<1, dim> &gravity,
               const DiscreteLevelSet<dim> *bed,
-              RunFolder &folder);
+              RunFolder &folder)
+        : grid(grid)
+        , gravity(gravity)
+        , bed(bed)
+        , folder(folder)
+    {
+    }
 
     /// Looks at the points if the last look is some steps old, or at the end. Collective.
     /// @param n_lost points of soil that this rank has lost so far
@@ -124,7 +117,13 @@ namespace scree
   {
   public:
     /// @param forces besides gravity alone, they do work that is not in the energy balance
-    BalanceChecks(const BackgroundGrid<dim> &grid, const BodyForces<dim> &forces);
+    BalanceChecks(const BackgroundGrid<dim> &grid, const BodyForces<dim> &forces)
+        : grid(grid)
+        , gravity(forces.gravity())
+        , energy_is_closed(forces.is_gravity_alone())
+        , mass_scaling(forces.mass_scaling())
+    {
+    }
 
     /// Compares the points with the start, which is the first look. Collective.
     /// @param totals of this rank
@@ -149,13 +148,23 @@ namespace scree
 
   private:
     /// Energy below which nothing has moved, J.
-    double least_energy() const;
+    double least_energy() const
+    {
+      constexpr double of_a_cell = 1e-3; // a fall of this part of the cell size
+      return of_a_cell * (soil_mass + water_mass) * gravity.norm() * grid.cell_size();
+    }
 
     /// Whether the motion was slow, for mass scaling.
     CheckResult check_of_motion() const;
 
     /// Energy that the run had to spend, J; 0 if too little of it for percentages.
-    double released_energy() const;
+    double released_energy() const
+    {
+      // Motion and elasticity of the start, fall, work. Scenes at rest release next to nothing.
+      const double stored   = start_energy - start_kinetic - start_potential; // elastic
+      const double set_free = start_kinetic + start_potential - least_potential + largest_work;
+      return set_free > least_energy() || gravity.norm() == 0. ? set_free + stored : 0.;
+    }
 
     const BackgroundGrid<dim> &grid;
     const dealii::Tensor<1, dim> gravity;

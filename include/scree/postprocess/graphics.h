@@ -4,21 +4,13 @@
 
 #include <scree/io/files.h>
 #include <scree/io/output_parameters.h>
-#include <scree/mesh/node_values.h>
 #include <scree/postprocess/measures.h>
 #include <scree/transfer/water_transfer.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/geometry_info.h>
 
-#include <array>
-#include <list>
-#include <memory>
 #include <sstream>
-#include <string>
-#include <tuple>
-#include <utility>
-#include <vector>
 
 namespace scree
 {
@@ -246,7 +238,16 @@ namespace scree
                   const WaterView<dim> *view = nullptr);
 
     /// After the state has been read from a checkpoint: takes the pictures that were written after it off the lists.
-    void cut() const;
+    void cut() const
+    {
+      std::vector<FileContent> files;
+      // Named, since GCC 13 takes a list in the loop for a dangling reference.
+      const auto all = { std::make_pair("points", &point_files), { "water", &water_files }, { "grid", &grid_files } };
+      for (const auto &[series, pictures] : all)
+        if (rank == 0 && !pictures->empty())
+          files.push_back(series_file(series, *pictures));
+      write_whole_files(files);
+    }
 
     /// Saves or loads the lists of files (Boost).
     template <class Archive>
@@ -270,10 +271,22 @@ namespace scree
              std::vector<TimeAndFile> &pictures,
              const double time,
              const std::shared_ptr<Picture> &picture,
-             Files &files) const;
+             Files &files) const
+    {
+      const std::string name = series + '_' + dealii::Utilities::int_to_string(pictures.size(), 5);
+      pictures.emplace_back(time, name + ".pvtu");
+      files.pictures.emplace_back(folder + name, picture);
+      if (rank == 0) // It alone writes them.
+        files.series.push_back(series_file(series, pictures));
+    }
 
     /// The `.pvd` of a series.
-    FileContent series_file(const std::string &series, const std::vector<TimeAndFile> &pictures) const;
+    FileContent series_file(const std::string &series, const std::vector<TimeAndFile> &pictures) const
+    {
+      std::ostringstream text;
+      dealii::DataOutBase::write_pvd_record(text, pictures);
+      return { folder + series + ".pvd", text.str() };
+    }
 
     const BackgroundGrid<dim> &grid;
     const Pictures pictures;

@@ -2,18 +2,9 @@
 #ifndef scree_postprocess_maps_h
 #define scree_postprocess_maps_h
 
-#include <scree/bodies/soil_body.h>
-#include <scree/io/files.h>
 #include <scree/io/output_parameters.h>
 #include <scree/io/run_folder.h>
 #include <scree/postprocess/measures.h>
-
-#include <array>
-#include <functional>
-#include <list>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace scree
 {
@@ -36,14 +27,32 @@ namespace scree
          const MapFrame &frame,
          const TimeLabel &time_label,
          const BackgroundGrid<dim> &grid,
-         const RunFolder &folder);
+         const RunFolder &folder)
+        : parameters(parameters)
+        , frame(frame)
+        , time_label(time_label)
+        , grid(grid)
+        , folder(folder)
+        , columns(grid)
+    {
+      if (!parameters.write)
+        return;
+      for (Map *map : { &thickness, &mass, &largest_thickness, &largest_speed, &largest_pressure })
+        map->assign(columns.size(), 0.);
+      arrival_time.assign(columns.size(), -1.);
+    }
 
     /// Takes the state at `time`, s, into the maps. Collective.
     void sample(const std::list<SoilBody<dim>> &bodies, const double time);
 
     /// What writes all maps as of the last sample, and the thickness (in 2D the table) also under a name with its
     /// `time`, s; empty if there is nothing to write. The maps may change before it is called.
-    std::function<void()> writing(const double time) const;
+    std::function<void()> writing(const double time) const
+    {
+      if (!parameters.write || !folder.is_writer())
+        return {};
+      return [this, of_time = '_' + time_label(time), all = sheets()] { write(of_time, all); };
+    }
 
     /// Saves or loads the maps as of the last sample (Boost).
     template <class Archive>
@@ -72,7 +81,21 @@ namespace scree
     void add_map(const std::string &file, const Sheet &sheet, std::vector<FileContent> &files) const;
 
     /// All maps in the plane: a row a column of cells, with the x of its middle.
-    std::string table(const std::vector<Sheet> &all) const;
+    std::string table(const std::vector<Sheet> &all) const
+    {
+      std::vector<std::string> heads{ "x (m)" };
+      for (const Sheet &sheet : all)
+        heads.push_back(sheet.name + " (" + sheet.unit + ')');
+      std::string text = csv_head(heads);
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        {
+          std::vector<double> row{ columns.middle(c)[0] };
+          for (const Sheet &sheet : all)
+            row.push_back(sheet.values[c]);
+          text += csv_row(row);
+        }
+      return text;
+    }
 
     const MapParameters parameters;
     const MapFrame frame;

@@ -2,17 +2,10 @@
 #ifndef scree_postprocess_measures_h
 #define scree_postprocess_measures_h
 
-#include <scree/bodies/soil_body.h>
 #include <scree/bodies/water_phase.h>
-#include <scree/mesh/background_grid.h>
 #include <scree/mesh/discrete_level_set.h>
 
-#include <deal.II/base/point.h>
-
-#include <array>
 #include <list>
-#include <utility>
-#include <vector>
 
 namespace scree
 {
@@ -97,13 +90,24 @@ namespace scree
   {
   public:
     /// Keeps a reference to the grid.
-    explicit CellColumns(const BackgroundGrid<dim> &grid);
+    explicit CellColumns(const BackgroundGrid<dim> &grid)
+        : grid(grid)
+    {
+      for (unsigned int a = 0; a < dim; ++a)
+        n[a] = std::lround((grid.upper_corner()[a] - grid.lower_corner()[a]) / grid.cell_size());
+    }
 
     /// Their number.
-    std::size_t size() const;
+    std::size_t size() const
+    {
+      return dim == 3 ? n[0] * n[1] : n[0];
+    }
 
     /// Area of each, m^2 (2D: width, m).
-    double area() const;
+    double area() const
+    {
+      return dealii::Utilities::fixed_power<dim - 1>(grid.cell_size());
+    }
 
     /// The middle of a column, with 0 as its last coordinate, m.
     dealii::Point<dim> middle(const std::size_t column) const;

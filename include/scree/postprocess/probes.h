@@ -2,24 +2,11 @@
 #ifndef scree_postprocess_probes_h
 #define scree_postprocess_probes_h
 
-#include <scree/bodies/soil_body.h>
-#include <scree/bodies/water_phase.h>
-#include <scree/boundary/boundary_conditions.h>
 #include <scree/boundary/water_walls.h>
 #include <scree/io/run_folder.h>
-#include <scree/mesh/background_grid.h>
+#include <scree/postprocess/measures.h>
 #include <scree/step/budget.h>
 #include <scree/transfer/water_transfer.h>
-
-#include <deal.II/base/parameter_handler.h>
-
-#include <array>
-#include <functional>
-#include <list>
-#include <map>
-#include <memory>
-#include <string>
-#include <vector>
 
 namespace scree
 {
@@ -31,13 +18,43 @@ namespace scree
   {
   public:
     /// Lists the places, m.
-    PlaceValues(const BackgroundGrid<dim> &grid, const std::vector<dealii::Point<dim>> &places);
+    PlaceValues(const BackgroundGrid<dim> &grid, const std::vector<dealii::Point<dim>> &places)
+        : grid(grid)
+        , place_list(places)
+    {
+      for (unsigned int i = 0; i < places.size(); ++i)
+        for (unsigned int n = 0; n < dealii::Utilities::fixed_power<dim>(3u); ++n)
+          {
+            CellPlace cell;
+            for (unsigned int a = 0, rest = n; a < dim; ++a, rest /= 3)
+              cell[a] = static_cast<int>(std::floor((places[i][a] - grid.lower_corner()[a]) / grid.cell_size())) +
+                        static_cast<int>(rest % 3) - 1;
+            places_near_cell[cell].push_back(i);
+          }
+    }
 
     /// Names with units of the quantities of soil: velocity, effective stress (tension positive), P, porosity.
-    static std::vector<std::string> names_of_soil();
+    static std::vector<std::string> names_of_soil()
+    {
+      std::vector<std::string> names;
+      for (unsigned int a = 0; a < dim; ++a)
+        names.push_back(std::string("Velocity ") + "xyz"[a] + " (m/s)");
+      for (const std::string component : { "xx", "yy", "zz", "xy", "xz", "yz" })
+        if (dim == 3 || (component != "xz" && component != "yz"))
+          names.push_back("Effective stress " + component + " (Pa)");
+      names.push_back("Mean effective stress (Pa)");
+      names.push_back("Porosity (-)");
+      return names;
+    }
 
     /// Names with units of the quantities of water: pore pressure, velocity.
-    static std::vector<std::string> names_of_water();
+    static std::vector<std::string> names_of_water()
+    {
+      std::vector<std::string> names{ "Pore pressure (Pa)" };
+      for (unsigned int a = 0; a < dim; ++a)
+        names.push_back(std::string("Water velocity ") + "xyz"[a] + " (m/s)");
+      return names;
+    }
 
     /// Their values, a row a place; nan where no such point lies within half a cell along each axis. Collective.
     std::vector<std::vector<double>> of_soil(const std::list<SoilBody<dim>> &bodies) const;
@@ -56,7 +73,16 @@ namespace scree
     struct Sums;
 
     /// The places whose values the points of a cell touch.
-    const std::vector<unsigned int> &near(const ConstCellPoints<dim> &cell) const;
+    const std::vector<unsigned int> &near(const ConstCellPoints<dim> &cell) const
+    {
+      static const std::vector<unsigned int> none;
+      CellPlace key;
+      for (unsigned int a = 0; a < dim; ++a)
+        key[a] = static_cast<int>(std::lround((cell.location_of(0)[a] - grid.lower_corner()[a]) / grid.cell_size() -
+                                              cell.reference_location_of(0)[a]));
+      const auto found = places_near_cell.find(key);
+      return found == places_near_cell.end() ? none : found->second;
+    }
 
     /// Adds a point to the sums of a place, unless it is too far.
     void add(Sums &sums,
@@ -81,10 +107,31 @@ namespace scree
     /// @param water_walls null in a dry scene
     WallForces(const BackgroundGrid<dim> &grid,
                const BoundaryConditions<dim> &walls,
-               const WaterBoundaryConditions<dim> *water_walls);
+               const WaterBoundaryConditions<dim> *water_walls)
+        : grid(grid)
+        , is_wet(water_walls != nullptr)
+    {
+      for (unsigned int f = 0; f < 2 * dim; ++f)
+        if (walls.walls()[f].type != WallType::open || (is_wet && !water_walls->is_drained(f)))
+          faces.push_back(f);
+    }
 
     /// Names of the columns of collect(), with their unit.
-    std::vector<std::string> names() const;
+    std::vector<std::string> names() const
+    {
+      std::vector<std::string> result;
+      const std::vector<std::string> of_face = FaceEntries::names(dim);
+      for (const unsigned int face : faces)
+        {
+          for (const std::string phase : { " soil ", " water " })
+            if (is_wet || phase == " soil ")
+              for (unsigned int a = 0; a < dim; ++a)
+                result.push_back(of_face[face] + phase + "xyz"[a] + " (N)");
+          if (is_wet)
+            result.push_back(of_face[face] + " pressure " + "xyz"[face / 2] + " (N)");
+        }
+      return result;
+    }
 
     /// The forces since the last call, nan at the first one: of the soil and of the water (what walls take of their
     /// motion; the soil's is the effective one), and the pore pressure's across the wall at this instant, of its
@@ -213,8 +260,28 @@ namespace scree
     };
 
     void add_table(Group &group, const std::string &name);
-    void write(const ProbedState<dim> &state, const bool of_pictures);
-    Rows state_at(const PlaceValues<dim> &places, const ProbedState<dim> &state) const;
+    void write(const ProbedState<dim> &state, const bool of_pictures)
+    {
+      for (Group &group : groups)
+        if (group.of_pictures == of_pictures && !group.tables.empty())
+          {
+            Rows rows = group.rows(state);
+            for (auto &row : rows)
+              row.insert(row.begin(), state.time);
+            std::vector<std::string> columns{ "Time (s)" };
+            columns.insert(columns.end(), group.columns.begin(), group.columns.end());
+            for (unsigned int t = 0; t < group.tables.size(); ++t)
+              group.tables[t]->append(columns, group.tables.size() == 1 ? rows : Rows{ rows[t] });
+          }
+    }
+    Rows state_at(const PlaceValues<dim> &places, const ProbedState<dim> &state) const
+    {
+      Rows rows      = has_soil ? places.of_soil(state.bodies) : Rows(places.places().size());
+      const Rows wet = has_water ? places.of_water(state.water) : Rows(rows.size());
+      for (unsigned int i = 0; i < rows.size(); ++i)
+        rows[i].insert(rows[i].end(), wet[i].begin(), wet[i].end());
+      return rows;
+    }
 
     const bool has_soil, has_water;
     RunFolder &folder;

@@ -4,19 +4,11 @@
 
 #include <scree/boundary/obstacle.h>
 #include <scree/io/progress.h>
-#include <scree/materials/material.h>
-#include <scree/mesh/discrete_level_set.h>
 #include <scree/postprocess/measures.h>
 #include <scree/step/budget.h>
 
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/utility.hpp>
-#include <boost/serialization/vector.hpp>
-
-#include <functional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace scree
 {
@@ -54,16 +46,44 @@ namespace scree
     }
 
     /// Adds dissipation and counts of a step's stress updates.
-    void add(const UpdateReport &report);
+    void add(const UpdateReport &report)
+    {
+      plastic_dissipation += report.plastic_dissipation;
+      n_updates += report.n_updates;
+      n_substeps += report.n_substeps;
+      n_fallbacks += report.n_fallbacks;
+      n_vertices += report.n_vertices;
+      n_unresolved += report.n_unresolved;
+    }
 
     /// The sums over ranks, on all of them. Collective.
-    RunBalance sum_over_ranks(const MPI_Comm communicator) const;
+    RunBalance sum_over_ranks(const MPI_Comm communicator) const
+    {
+      RunBalance total = *this;
+      const NumbersOf numbers(total);
+      std::vector<double> sums; // one message for all
+      for (const double *number : numbers.list)
+        sums.push_back(*number);
+      dealii::Utilities::MPI::sum(sums, communicator, sums);
+      for (std::size_t i = 0; i < sums.size(); ++i)
+        *numbers.list[i] = sums[i];
+      return total;
+    }
 
     /// What soil and water have been given, N s.
-    dealii::Tensor<1, dim> impulse() const;
+    dealii::Tensor<1, dim> impulse() const
+    {
+      return balance.wall_impulse + balance.body_impulse + balance.pressure_impulse + balance.load_impulse +
+             balance.bed_impulse + balance.obstacle_impulse() + entered_momentum - lost_momentum;
+    }
 
     /// Energy that known losses have taken, less work and energy that has come in, J.
-    double energy_taken() const;
+    double energy_taken() const
+    {
+      return plastic_dissipation + balance.wall_dissipation + balance.bed_dissipation + balance.contact_dissipation +
+             balance.drag_dissipation + balance.viscous_dissipation + lost_energy - balance.load_work -
+             balance.correction_work - balance.obstacle_energy() - entered_energy;
+    }
 
     /// Saves or loads all members (Boost).
     template <class Archive>
@@ -156,15 +176,12 @@ namespace scree
   template <int dim>
   struct RowHistory
   {
-    bool has_start = false;                      ///< whether there has been a row
-    dealii::Tensor<1, dim> start_momentum;       ///< N s
-    double start_energy         = 0;             ///< kinetic, potential and elastic, J
-    unsigned long long step     = 0;             ///< steps of the run
-    double time                 = 0;             ///< s
-    double n_iterations         = 0;             ///< see Budget::n_iterations
-    double n_cavitating         = 0;             ///< see Budget::n_cavitating
-    double n_viscous_iterations = 0;             ///< see Budget::n_viscous_iterations
-    std::vector<ObstacleBalance<dim>> obstacles; ///< see Budget::obstacles
+    bool has_start = false;                ///< whether there has been a row
+    dealii::Tensor<1, dim> start_momentum; ///< N s
+    double start_energy     = 0;           ///< kinetic, potential and elastic, J
+    unsigned long long step = 0;           ///< steps of the run
+    double time             = 0;           ///< s
+    Budget<dim> balance;                   ///< of all steps so far
   };
 
   /// What a column of the statistics may ask for: soil and water of all ranks when a row is due (2D: per m).
@@ -331,7 +348,13 @@ namespace scree
     /// @param gravity m/s^2
     Statistics(const BackgroundGrid<dim> &grid,
                const dealii::Tensor<1, dim> &gravity,
-               const SceneFeatures<dim> &further);
+               const SceneFeatures<dim> &further)
+        : grid(grid)
+        , gravity(gravity)
+        , further(further)
+        , motion(grid, gravity, further.bed)
+    {
+    }
 
     /// Makes a row: of soil and water together, of the soil if there is any, and of `water` unless it is empty.
     /// Collective.
@@ -372,8 +395,7 @@ namespace scree
     void serialize(Archive &archive, const unsigned int)
     {
       archive &history.has_start &history.start_momentum &history.start_energy;
-      archive &last_row &history.step &history.n_iterations &history.n_cavitating &history.n_viscous_iterations;
-      archive &history.time &history.obstacles &motion;
+      archive &last_row &history.step &history.time &history.balance &motion;
     }
 
   private:

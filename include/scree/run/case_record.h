@@ -2,7 +2,6 @@
 #ifndef scree_run_case_record_h
 #define scree_run_case_record_h
 
-#include <scree/io/run_folder.h>
 #include <scree/model/scene.h>
 
 namespace scree

@@ -2,13 +2,7 @@
 #ifndef scree_run_relaxation_h
 #define scree_run_relaxation_h
 
-#include <scree/io/progress.h>
-#include <scree/io/run_folder.h>
-#include <scree/model/scene.h>
 #include <scree/run/step_control.h>
-
-#include <functional>
-#include <limits>
 
 namespace scree
 {
@@ -37,12 +31,23 @@ namespace scree
   {
   public:
     /// Keeps a copy of the bounds.
-    explicit TrialJudge(const TrialBounds &bounds);
+    explicit TrialJudge(const TrialBounds &bounds)
+        : bounds(bounds)
+    {
+    }
 
     /// Takes the state at a time, s, later than the last one.
     /// @param displacement m
     /// @param speed m/s
-    TrialEnd look(const double time, const double displacement, const double speed);
+    TrialEnd look(const double time, const double displacement, const double speed)
+    {
+      if (displacement > bounds.displacement)
+        return TrialEnd::fails;
+      slow_since = speed < bounds.speed ? std::min(slow_since, time) : std::numeric_limits<double>::infinity();
+      if (slow_since <= time - bounds.time_scale)
+        return TrialEnd::rests;
+      return time >= bounds.maximum_time ? TrialEnd::fails : TrialEnd::undecided;
+    }
 
   private:
     const TrialBounds bounds;

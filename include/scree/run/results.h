@@ -2,18 +2,10 @@
 #ifndef scree_run_results_h
 #define scree_run_results_h
 
-#include <scree/io/files.h>
-#include <scree/io/output_parameters.h>
-#include <scree/io/run_folder.h>
 #include <scree/model/scene.h>
 #include <scree/postprocess/checks.h>
 #include <scree/postprocess/graphics.h>
 #include <scree/postprocess/maps.h>
-#include <scree/postprocess/probes.h>
-#include <scree/postprocess/statistics.h>
-#include <scree/schemes/scheme.h>
-
-#include <string>
 
 namespace scree
 {
@@ -34,20 +26,91 @@ namespace scree
   {
   public:
     /// All are kept by reference.
-    Results(const Parameters &parameters, const Scene<dim> &scene, Scheme<dim> &scheme, RunFolder &folder);
+    Results(const Parameters &parameters, const Scene<dim> &scene, Scheme<dim> &scheme, RunFolder &folder)
+        : parameters(parameters)
+        , scene(scene)
+        , scheme(scheme)
+        , folder(folder)
+        , graphics(scene.grid, parameters.output, parameters.output_directory)
+        , statistics(scene.grid,
+                     scene.forcing.gravity(),
+                     { !scene.loads.empty(),
+                       parameters.water.volume_correction_rate > 0.,
+                       parameters.water.viscosity > 0.,
+                       !parameters.inflows.empty() || parameters.rain.is_set(),
+                       parameters.contact_groups().n > 1,
+                       scene.bed.get(),
+                       &scene.obstacles,
+                       scene.forcing.mass_scaling() })
+        , rows(folder, "statistics")
+        , probes(parameters.probes, scene.grid, scene.walls, scene.water_walls.get(), !scene.bodies.empty(), folder)
+        , maps(parameters.output.maps,
+               { parameters.bed.map_origin, parameters.map_system },
+               { parameters.end_time, parameters.output.interval },
+               scene.grid,
+               folder)
+        , checks(scene.grid, scene.forcing.gravity(), scene.bed.get(), folder)
+        , balances(scene.grid, scene.forcing)
+        , files(scene.grid.communicator())
+    {
+    }
 
     /// Writes what is due. Collective.
-    void report(const RunState<dim> &state, const OutputTimes &output_times);
+    void report(const RunState<dim> &state, const OutputTimes &output_times)
+    {
+      files.look();
+      const double time          = state.time;
+      const bool at_start_or_end = state.step == 0 || output_times.is_end(time);
+      const bool row_is_due      = at_start_or_end || output_times.row_is_due(time);
+      const bool picture_is_due  = at_start_or_end || output_times.picture_is_due(time);
+
+      if (row_is_due || picture_is_due || output_times.checkpoint_is_due(time))
+        folder.require_presence();
+      if (row_is_due && checks.look(scene.bodies, scene.water, state.totals.n_lost, time, state.step, at_start_or_end))
+        balances.look(scene.bodies, scene.water, state.totals, time);
+      if (row_is_due)
+        write_row(state);
+      else if (picture_is_due)
+        maps.sample(scene.bodies, time);
+      if (picture_is_due)
+        write_picture(state);
+    }
 
     /// Output of the state as it is. Collective.
-    void write_row(const RunState<dim> &state);
+    void write_row(const RunState<dim> &state)
+    {
+      statistics.collect(
+          scene.bodies, scene.water, state.totals, state.time, state.step, state.time_step, state.last_update);
+      rows.append(statistics.columns(), { statistics.values() });
+      probes.write_rows(probed_state(state, scheme.water_view().get()));
+      maps.sample(scene.bodies, state.time);
+      statistics.require_numbers(state.time);
+    }
 
     /// Pictures, lines and maps of the state as it is: gathered here, and written while the run goes on. Collective.
-    void write_picture(const RunState<dim> &state);
+    void write_picture(const RunState<dim> &state)
+    {
+      const std::unique_ptr<WaterView<dim>> view = scheme.water_view();
+      FileJob job = graphics.write(scene.bodies, scheme.soil_field(), state.time, view.get());
+      probes.write_lines(probed_state(state, view.get()));
+      job.stages.push_back(maps.writing(state.time));
+      job.failed = [this](const std::string &fault) {
+        folder.require_presence();
+        throw EntryError(fault);
+      };
+      files.start(std::move(job));
+    }
 
     /// Writes the files of a checkpoint of `time`, s, while the run goes on; if that fails, the run stops, as the
     /// case says. Collective.
-    void write_checkpoint(FileJob job);
+    void write_checkpoint(FileJob job)
+    {
+      job.failed = [this, fail = std::move(job.failed)](const std::string &fault) {
+        folder.require_presence();
+        fail(fault);
+      };
+      files.start(std::move(job));
+    }
 
     /// What writes pictures, maps and checkpoints.
     BackgroundWriter &writer()
@@ -56,10 +119,21 @@ namespace scree
     }
 
     /// Brings all rows to the disk, before a checkpoint counts on them.
-    void sync();
+    void sync()
+    {
+      rows.sync();
+      for (TableFile &table : probes.files())
+        table.sync();
+    }
 
     /// After a checkpoint has been read: drops from lists and rows what was written after it.
-    void cut();
+    void cut()
+    {
+      graphics.cut();
+      for (TableFile &table : probes.files())
+        table.cut();
+      rows.cut();
+    }
 
     /// Adds to the checks that are reported at the end of the run.
     void add_checks(const std::vector<CheckResult> &results)
@@ -69,7 +143,23 @@ namespace scree
 
     /// At the end of a run: reports where the results are, and writes rows that the disk did not take. Throws FileError
     /// if it still refuses them.
-    void complete();
+    void complete()
+    {
+      add_checks(balances.results());
+      add_checks(checks.results());
+      add_checks(statistics.soil_motion().results());
+      if (const std::string text = statistics.soil_motion().text(); !text.empty())
+        folder.log(text);
+      if (!found.empty())
+        folder.log(verdict(found));
+      folder.log("Results     " + text_of_results());
+      if (folder.is_writer() && parameters.output.screen_kind() == Screen::statistics)
+        statistics.print_last_row(std::cout);
+      folder.require_presence();
+      rows.complete();
+      for (TableFile &table : probes.files())
+        table.complete();
+    }
 
     /// Steps of the run at the last row.
     unsigned long long step_of_last_row() const
@@ -86,9 +176,19 @@ namespace scree
 
   private:
     /// Where the results are.
-    std::string text_of_results() const;
+    std::string text_of_results() const
+    {
+      const std::string path = parameters.output_directory + '/';
+      return parameters.output.graphics_kind() == Pictures::none
+                 ? path + "statistics, log.txt"
+                 : path + "solution/" + (scene.bodies.empty() ? "water" : "points") +
+                       ".pvd (ParaView), statistics, log.txt";
+    }
 
-    ProbedState<dim> probed_state(const RunState<dim> &state, const WaterView<dim> *view) const;
+    ProbedState<dim> probed_state(const RunState<dim> &state, const WaterView<dim> *view) const
+    {
+      return { scene.bodies, scene.water, state.totals.balance, state.time, view };
+    }
 
     const Parameters &parameters;
     const Scene<dim> &scene;

@@ -2,12 +2,7 @@
 #ifndef scree_run_safety_h
 #define scree_run_safety_h
 
-#include <scree/case/parameters.h>
-#include <scree/run/relaxation.h>
 #include <scree/run/simulation.h>
-
-#include <functional>
-#include <optional>
 
 namespace scree
 {

@@ -2,17 +2,10 @@
 #ifndef scree_run_simulation_h
 #define scree_run_simulation_h
 
-#include <scree/io/output_parameters.h>
-#include <scree/io/progress.h>
-#include <scree/model/scene.h>
 #include <scree/particles/partition.h>
+#include <scree/run/case_record.h>
 #include <scree/run/relaxation.h>
 #include <scree/run/results.h>
-#include <scree/run/step_control.h>
-#include <scree/step/step_report.h>
-
-#include <limits>
-#include <memory>
 
 namespace scree
 {
@@ -36,7 +29,28 @@ namespace scree
   {
   public:
     /// Throws InputError or dealii exceptions if the parameters do not make a run.
-    Simulation(Parameters &parameters, const Start start, const MPI_Comm communicator);
+    Simulation(Parameters &parameters, const Start start, const MPI_Comm communicator)
+        : parameters(parameters)
+        , start(start)
+        , communicator(communicator)
+        , folder(parameters.output_directory, parameters.output.screen_kind() == Screen::progress, communicator)
+        , stop(folder.is_writer() ? folder.file("terminate") : "", parameters.output.wall_time_limit)
+        , timer(std::cout, dealii::TimerOutput::never, dealii::TimerOutput::wall_times)
+        , scene(parameters, communicator)
+        , scheme(scene.make_scheme(timer))
+        , partition(scene.grid.triangulation(), scheme->point_sets())
+        , adaptation(scene, *scheme, timer, communicator)
+        , clock(parameters.time_step)
+        , control(scene, clock, stop, timer, communicator)
+        , output_times(parameters.output, parameters.end_time)
+        , results(parameters, scene, *scheme, folder)
+        , totals(scene.obstacles.size())
+    {
+      if (start == Start::resume)
+        resume();
+      else
+        initialise();
+    }
 
     /// From the start to the end time, with all output; or to a request to stop (StopRequests), with a checkpoint
     /// unless the soil was still settling.
@@ -59,7 +73,12 @@ namespace scree
 
     /// Damped motion from the state as it is, until the soil rests or fails; then it is stopped. Collective.
     /// @param displacement of soil that fails, over the height of the slope
-    Trial try_strength(const double displacement);
+    Trial try_strength(const double displacement)
+    {
+      stop.listen();
+      is_released = false;
+      return relaxation().try_strength(displacement);
+    }
 
     /// Writes a checkpoint of the state as it is, to the end. Collective.
     void write_checkpoint()
@@ -71,11 +90,27 @@ namespace scree
     }
 
     /// Writes what is due of the state as it is. Collective.
-    void report();
+    void report()
+    {
+      const TimedPart part(timer, TimerSection::output);
+      results.report(state(), output_times);
+      if (output_times.checkpoint_is_due(clock.time()))
+        begin_checkpoint();
+      output_times.begin(clock.time());
+      if (is_at_end())
+        results.writer().finish();
+      stop.allow_for(results.writer().longest());
+    }
 
     /// One step of the run, of `largest_step` s and to the time `due`, s, at most.
     /// @return its length, s
-    double step(const double largest_step, const double due);
+    double step(const double largest_step, const double due)
+    {
+      last_time_step = clock.next_step(largest_step, due);
+      advance(last_time_step);
+      clock.advance(last_time_step, due);
+      return last_time_step;
+    }
 
     /// Output of the state as it is. Collective.
     void write_row()
@@ -153,19 +188,56 @@ namespace scree
   private:
     void initialise();
     void resume();
-    void settle();
+    void settle()
+    {
+      stop.listen();
+      is_released = false;
+      results.add_checks(relaxation().settle());
+      is_released = control.stop_reason() == StopReason::none;
+      // Balances begin at the release; what was lost stays lost.
+      const RunBalance<dim> settled = totals;
+      totals                        = RunBalance<dim>(scene.obstacles.size());
+      totals.n_lost                 = settled.n_lost;
+      totals.lost_mass              = settled.lost_mass;
+      totals.lost_volume            = settled.lost_volume;
+      totals.lost_water_mass        = settled.lost_water_mass;
+    }
 
     /// Damped motion of the scene before the release.
-    Relaxation<dim> relaxation();
+    Relaxation<dim> relaxation()
+    {
+      return { parameters, scene, *scheme, control, folder, [this](const double time_step) { advance(time_step); } };
+    }
 
     /// Fits scene and scheme to a new partition of the mesh.
-    void reinit();
+    void reinit()
+    {
+      scene.reinit();
+      scheme->reinit();
+      scheme->read_points();
+    }
 
     /// Repartitions the mesh, if that is due and worthwhile.
-    void repartition();
+    void repartition()
+    {
+      if (!partition.is_worth_changing())
+        return;
+      const TimedPart part(timer, TimerSection::repartition);
+      partition.repartition([this] { reinit(); });
+    }
 
     /// Moves on what the scene moves by itself, and puts in what enters.
-    void end_step(const double time_step);
+    void end_step(const double time_step)
+    {
+      const std::unique_ptr<WaterView<dim>> water = scene.is_fed() ? scheme->water_view() : nullptr;
+      scene.let_in(clock.time(), time_step, water ? water->pressure_of_cell : PressureOfCell<dim>(), totals);
+      if (scene.wet_ground_moves())
+        {
+          const TimedPart part(timer, TimerSection::bed);
+          scene.cut_cells->follow();
+          scheme->follow_ground();
+        }
+    }
 
     /// After a step: the points to the cells and ranks they are in now, and the speeds of all ranks for the next step.
     void place_points(const double time_step, const Speeds &of_rank);
@@ -181,10 +253,35 @@ namespace scree
     void write_last();
 
     /// What is reported when a run ends.
-    void summarise(const End end, const double point_updates_before);
+    void summarise(const End end, const double point_updates_before)
+    {
+      const double n_updates = dealii::Utilities::MPI::sum(point_updates - point_updates_before, communicator);
+      progress->conclude(end == End::complete ? "Finished" : "Stopped", clock.time(), n_updates, communicator);
+      progress->summarise(timer, n_updates, scene.name_of_a_point(), communicator);
+      progress->summarise_ranks(
+          seconds_of(timer, TimerSection::waiting), partition.imbalance(), partition.n_repartitions(), communicator);
+      adaptation.summarise(folder);
+      log_balance(scene, totals, folder, communicator);
+      log_peak_memory(folder, communicator);
+      results.complete();
+    }
 
     template <class Archive>
-    void serialize_state(Archive &archive);
+    void serialize_state(Archive &archive)
+    {
+      double time             = clock.time();
+      unsigned long long step = clock.step();
+      archive &time &step;
+      control.serialize(archive);
+      archive &last_time_step &totals;
+      results.serialize(archive);
+      for (Obstacle<dim> &obstacle : scene.obstacles)
+        archive &obstacle;
+      scene.serialize_what_enters(archive);
+      for (PointSet<dim> *points : point_sets())
+        archive & points->next_id;
+      clock.set(time, step);
+    }
 
     Parameters &parameters;
     const Start start;

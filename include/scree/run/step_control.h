@@ -2,16 +2,8 @@
 #ifndef scree_run_step_control_h
 #define scree_run_step_control_h
 
-#include <scree/io/run_folder.h>
 #include <scree/io/stop_requests.h>
 #include <scree/model/scene.h>
-#include <scree/schemes/scheme.h>
-#include <scree/schemes/time_step.h>
-
-#include <deal.II/base/timer.h>
-
-#include <functional>
-#include <vector>
 
 namespace scree
 {
@@ -109,7 +101,10 @@ namespace scree
     }
 
     /// Looks whether that is so. Collective.
-    void look_at_points();
+    void look_at_points()
+    {
+      points_at_edge = are_points_at_edge() || points_at_edge;
+    }
 
     /// Logs how often cells were made fine, and how many there are. Collective.
     void summarise(RunFolder &folder) const;
@@ -119,7 +114,12 @@ namespace scree
     Blocks blocks_ahead(const double time_step) const;
 
     /// Whether a point of any rank has come to the edge of the fine cells. Collective.
-    bool are_points_at_edge() const;
+    bool are_points_at_edge() const
+    {
+      const auto sets = scheme.point_sets();
+      const bool own  = std::any_of(sets.begin(), sets.end(), [](const auto *points) { return points->is_at_edge(); });
+      return dealii::Utilities::MPI::max(int(own), communicator) == 1;
+    }
 
     Scene<dim> &scene;
     Scheme<dim> &scheme;

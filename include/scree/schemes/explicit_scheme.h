@@ -2,11 +2,9 @@
 #ifndef scree_schemes_explicit_scheme_h
 #define scree_schemes_explicit_scheme_h
 
-#include <scree/contact/points/point_contact.h>
 #include <scree/contact/points/turbulent_friction.h>
 #include <scree/contact/bodies/body_contact.h>
 #include <scree/momentum/explicit_update.h>
-#include <scree/schemes/model.h>
 #include <scree/schemes/scheme.h>
 #include <scree/momentum/solid_phase.h>
 
@@ -22,15 +20,63 @@ namespace scree
     /// @param model its members are kept by reference
     ExplicitScheme(const Model<dim> &model, dealii::TimerOutput &timer);
 
-    void reinit() override;
-    void read_points() override;
-    void to_grid(const double time) override;
+    void reinit() override
+    {
+      for (WallGaps<dim> &gaps : wall_gaps)
+        gaps.reinit();
+      for (Group &group : groups)
+        {
+          group.soil.reinit();
+          group.contact.reinit();
+        }
+      for (auto &contact : contacts)
+        contact.reinit();
+      if (mean_field)
+        mean_field->reinit();
+    }
+    void read_points() override
+    {
+      for (Group &group : groups)
+        group.soil.field.clear();
+    }
+    void to_grid(const double time) override
+    {
+      for (Group &group : groups)
+        group.soil.average(timer);
+      const TimedPart part(timer, TimerSection::points_to_grid);
+      for (Group &group : groups)
+        group.soil.to_grid(time);
+      for (WallGaps<dim> &gaps : wall_gaps)
+        gaps.clear();
+      for (const auto &body : bodies)
+        if (!body.is_rigid)
+          std::next(groups.begin(), body.group)->wall_gaps.add(body.points, body.spacing);
+    }
     void solve(const double time_step, StepReport<dim> &report) override;
-    void to_points(const double time_step, StepReport<dim> &report) override;
-    NodalForces nodal_forces(const double time_step) const override;
-    std::vector<PointSet<dim> *> point_sets() override;
+    void to_points(const double time_step, StepReport<dim> &report) override
+    {
+      const TimedPart part(timer, TimerSection::stress);
+      for (Group &group : groups)
+        group.soil.to_points(time_step, report);
+    }
+    NodalForces nodal_forces(const double time_step) const override
+    {
+      NodalForces sums;
+      for (const Group &group : groups)
+        add_nodal_forces<dim>(group.soil.field, nullptr, forces, time_step, sums);
+      return sums;
+    }
+    std::vector<PointSet<dim> *> point_sets() override
+    {
+      std::vector<PointSet<dim> *> sets;
+      groups.front().soil.append_point_sets(sets);
+      return sets;
+    }
     const NodalField<dim> &soil_field() override;
-    std::unique_ptr<WaterView<dim>> water_view() const override;
+    std::unique_ptr<WaterView<dim>> water_view() const override
+    {
+      return nullptr;
+    }
 
   private:
     /// Bodies that stick to each other.
@@ -45,13 +91,31 @@ namespace scree
     };
 
     /// Those at nodes with these constraints, which groups may share; made where there are none yet.
-    WallGaps<dim> &gaps_of(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints);
+    WallGaps<dim> &gaps_of(const BackgroundGrid<dim> &grid, Constraints<dim> &constraints)
+    {
+      for (WallGaps<dim> &gaps : wall_gaps)
+        if (gaps.are_of(constraints))
+          return gaps;
+      return wall_gaps.emplace_back(grid, constraints);
+    }
 
     /// Sums of all ranks, with the loads, and walls that act. Collective.
     void sum_at_nodes(const double time_step, Budget<dim> &budget);
 
     /// Impulses where groups meet.
-    void solve_contacts(const double time_step, Budget<dim> &budget);
+    void solve_contacts(const double time_step, Budget<dim> &budget)
+    {
+      if (contacts.empty())
+        return;
+      const TimedPart part(timer, TimerSection::contacts);
+      // Where three groups meet, one contact disturbs the other.
+      const unsigned int n_sweeps = contacts.size() == 1 ? 1 : 4;
+      for (unsigned int sweep = 0; sweep < n_sweeps; ++sweep)
+        for (auto &contact : contacts)
+          contact.solve(time_step, budget);
+      for (Group &group : groups)
+        group.soil.field.update_ghosts();
+    }
 
     std::list<SoilBody<dim>> &bodies;
     const BodyForces<dim> &forces;

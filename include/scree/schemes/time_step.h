@@ -2,10 +2,15 @@
 #ifndef scree_schemes_time_step_h
 #define scree_schemes_time_step_h
 
-#include <deal.II/base/parameter_handler.h>
+#include <scree/input/input_error.h>
 
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
 #include <array>
-#include <string>
+#include <cmath>
+#include <limits>
 
 namespace scree
 {
@@ -31,7 +36,11 @@ namespace scree
     /// @param courant_of_transfer see TransferParameters::courant_number()
     /// @param gravity m/s^2; without it there is no maximum in dry scenes
     /// @param cell_size m
-    void choose(const bool has_water, const double courant_of_transfer, const double gravity, const double cell_size);
+    void choose(const bool has_water, const double courant_of_transfer, const double gravity, const double cell_size)
+    {
+      courant_number = courant != "auto" ? number_of(courant) : courant_of_transfer;
+      choose_maximum(has_water, gravity, cell_size);
+    }
 
     /// The parameters while the pore pressure is held: an `auto` maximum is that of dry soil.
     TimeStepParameters with_held_pressure(const double gravity, const double cell_size) const
@@ -42,7 +51,17 @@ namespace scree
     }
 
   private:
-    void choose_maximum(const bool has_water, const double gravity, const double cell_size);
+    void choose_maximum(const bool has_water, const double gravity, const double cell_size)
+    {
+      constexpr double part_of_cell = 0.1, of_wet_soil = 1e-2;
+      if (maximum != "auto")
+        maximum_time_step = number_of(maximum);
+      else if (has_water)
+        maximum_time_step = of_wet_soil * std::sqrt(mass_scaling);
+      else
+        maximum_time_step = gravity > 0. ? std::sqrt(2. * part_of_cell * cell_size * mass_scaling / gravity)
+                                         : std::numeric_limits<double>::infinity();
+    }
   };
 
   /// What bounds a step.
@@ -61,24 +80,52 @@ namespace scree
   {
   public:
     /// Starts at t = 0 and step 0.
-    explicit TimeStepper(const TimeStepParameters &parameters);
+    explicit TimeStepper(const TimeStepParameters &parameters)
+        : parameters(parameters)
+    {
+    }
 
     /// Largest step, s: Courant number times cell size over (wave speed + speed), advection number times cell size over
     /// speed, and at most the maximum.
-    double stable_step(const double cell_size, const double wave_speed, const double speed) const;
+    double stable_step(const double cell_size, const double wave_speed, const double speed) const
+    {
+      const auto all = bounds(cell_size, wave_speed, speed);
+      return *std::min_element(all.begin(), all.end());
+    }
 
     /// What makes it that large.
-    StepLimit limit(const double cell_size, const double wave_speed, const double speed) const;
+    StepLimit limit(const double cell_size, const double wave_speed, const double speed) const
+    {
+      const auto all = bounds(cell_size, wave_speed, speed);
+      return static_cast<StepLimit>(std::min_element(all.begin(), all.end()) - all.begin());
+    }
 
     /// The part of the step that waves and motion alone would allow which the maximum leaves.
-    double part_left(const double cell_size, const double wave_speed, const double speed) const;
+    double part_left(const double cell_size, const double wave_speed, const double speed) const
+    {
+      const auto all = bounds(cell_size, wave_speed, speed);
+      return std::min(1., all[0] / std::min(all[1], all[2]));
+    }
 
     /// The step, s, from now on: at most the stable one, and shortened so that equal steps end at `due`.
-    double next_step(const double stable_step, const double due) const;
+    double next_step(const double stable_step, const double due) const
+    {
+      const double remaining = due - current_time;
+      return remaining / std::max(1., std::ceil(remaining / stable_step * (1. - 1e-12)));
+    }
 
     /// Moves on by the step, to the due time itself if the step ends there. Throws if the step is too small to move the
     /// time.
-    void advance(const double time_step, const double due);
+    void advance(const double time_step, const double due)
+    {
+      AssertThrow(current_time + time_step > current_time,
+                  dealii::ExcMessage("The time stands still: at t = " + dealii::Utilities::to_string(current_time) +
+                                     " s the step is " + dealii::Utilities::to_string(time_step) +
+                                     " s. Remedies: a shorter 'End time', smaller moduli or a smaller 'Viscosity'."));
+      const bool arrives = current_time + 1.5 * time_step > due;
+      current_time       = arrives ? due : current_time + time_step;
+      ++n_steps;
+    }
 
     /// Time at the end of the last step, s.
     double time() const
@@ -101,7 +148,15 @@ namespace scree
 
   private:
     /// The bounds by StepLimit, s.
-    std::array<double, 3> bounds(const double cell_size, const double wave_speed, const double speed) const;
+    std::array<double, 3> bounds(const double cell_size, const double wave_speed, const double speed) const
+    {
+      const auto over = [](const double length, const double velocity) {
+        return velocity > 0 ? length / velocity : std::numeric_limits<double>::infinity();
+      };
+      return { { parameters.maximum_time_step,
+                 over(parameters.courant_number * cell_size, wave_speed / std::sqrt(parameters.mass_scaling) + speed),
+                 over(parameters.advection_number * cell_size, speed) } };
+    }
 
     const TimeStepParameters parameters;
     double current_time        = 0;

@@ -2,14 +2,10 @@
 #ifndef scree_schemes_two_phase_scheme_h
 #define scree_schemes_two_phase_scheme_h
 
-#include <scree/contact/cut_cells/cut_cell_contact.h>
-#include <scree/momentum/two_phase_momentum.h>
-#include <scree/schemes/model.h>
 #include <scree/schemes/scheme.h>
 #include <scree/momentum/solid_phase.h>
 #include <scree/viscosity/viscous_step.h>
 #include <scree/momentum/particle_shifting.h>
-#include <scree/transfer/water_transfer.h>
 
 namespace scree
 {
@@ -32,16 +28,60 @@ namespace scree
     /// @param model its members are kept by reference
     TwoPhaseScheme(const Model<dim> &model, dealii::TimerOutput &timer);
 
-    void reinit() override;
-    void follow_ground() override;
-    void read_points() override;
+    void reinit() override
+    {
+      soil.reinit();
+      mixture.reinit();
+      pores.reinit();
+      water_field.reinit();
+      excess.reinit();
+      pressure.reinit();
+      wall_gaps.reinit();
+      momentum.reinit();
+      viscosity.reinit();
+      contact.reinit();
+      shifting.reinit();
+    }
+    void follow_ground() override
+    {
+      pressure.follow_ground();
+      contact.follow();
+    }
+    void read_points() override
+    {
+      gather();
+      activate_nodes();
+      pressure.locate(mixture);
+      soil.field.clear();
+      water_field.clear(); // sums, not velocities
+    }
     void to_grid(const double time) override;
     void solve(const double time_step, StepReport<dim> &report) override;
-    void to_points(const double time_step, StepReport<dim> &report) override;
-    void hold_water(const bool holds) override;
-    NodalForces nodal_forces(const double time_step) const override;
+    void to_points(const double time_step, StepReport<dim> &report) override
+    {
+      {
+        const TimedPart part(timer, TimerSection::stress);
+        soil.to_points(time_step, report);
+      }
+      if (!holds_water)
+        move_water(time_step, report);
+      project_to_boundary(time_step, report.speeds.points);
+    }
+    void hold_water(const bool holds) override
+    {
+      holds_water = holds;
+    }
+    NodalForces nodal_forces(const double time_step) const override
+    {
+      NodalForces sums;
+      add_nodal_forces(soil.field, &water_field, forces, time_step, sums);
+      return sums;
+    }
     std::vector<PointSet<dim> *> point_sets() override;
-    const NodalField<dim> &soil_field() override;
+    const NodalField<dim> &soil_field() override
+    {
+      return soil.field;
+    }
     std::unique_ptr<WaterView<dim>> water_view() const override;
 
   private:
@@ -49,27 +89,66 @@ namespace scree
     void gather();
 
     /// Makes all fields active where any is.
-    void activate_nodes();
+    void activate_nodes()
+    {
+      for (const MixtureCell<dim> &cell : mixture.cells())
+        {
+          soil.field.activate_cell(cell.cell);
+          water_field.activate_cell(cell.cell);
+          excess.activate_cell(cell.cell);
+          pores.activate_cell(cell.cell);
+        }
+    }
 
     /// What the nodes' sums over ranks say of the discharge, and the force of the old pressure. Collective.
     void find_pair(const double time_step);
 
     /// What the predictor starts from at the nodes: sums of all ranks, forces of loads and of the old pressure, walls
     /// that act. Collective.
-    void sum_at_nodes(const double time_step);
+    void sum_at_nodes(const double time_step)
+    {
+      const TimedPart part(timer, TimerSection::nodes);
+      activate_nodes();
+      pressure.locate(mixture);
+      soil.add_loads(time_step); // Pressure is implicit, so the load is that of the step's end.
+      soil.field.add_contributions();
+      water_field.add_contributions();
+      pores.add_contributions();
+      soil.field.scale_inertia(forces.mass_scaling());
+      water_field.scale_inertia(forces.mass_scaling());
+      wall_gaps.release(forces, time_step);
+      find_pair(time_step);
+    }
 
     /// The soil takes mass, weight and pressure of the water at its nodes: what carries both where water keeps its
     /// place.
     void load_soil_with_water();
 
     /// The solve where water keeps its place: the pressure is that of its points.
-    void solve_drained(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget);
+    void solve_drained(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget)
+    {
+      load_soil_with_water();
+      momentum.predict(nodes, time_step, transfer.kept(time_step), budget);
+      contact.begin_step(mixture, pressure.free_surface());
+      contact.predict(nodes, mixture, momentum, time_step, budget);
+    }
 
     /// The water's part of to_points().
     void move_water(const double time_step, StepReport<dim> &report);
 
     /// Books what is known at the end of a step only. Collective.
-    void end_step(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget);
+    void end_step(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget)
+    {
+      {
+        const TimedPart part(timer, TimerSection::nodes);
+        viscosity.count_dissipation(nodes, budget);
+        pressure.accept_change();
+        // The predictor has counted the load among the forces.
+        budget.load_impulse += soil.load_impulse(time_step);
+        budget.pressure_impulse -= soil.load_impulse(time_step);
+      }
+      contact.count_pressure(mixture, pressure, time_step, budget);
+    }
 
     /// Takes points back that have left through the box or the ground.
     void project_to_boundary(const double time_step, const double largest_speed);

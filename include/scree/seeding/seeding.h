@@ -3,16 +3,7 @@
 #define scree_seeding_seeding_h
 
 #include <scree/bodies/soil_body.h>
-#include <scree/geometry/level_set.h>
-#include <scree/geometry/source_map.h>
-#include <scree/input/input_error.h>
-#include <scree/particles/region.h>
-
-#include <deal.II/base/parameter_handler.h>
-
-#include <optional>
-#include <string>
-#include <vector>
+#include <scree/bodies/water_phase.h>
 
 namespace scree
 {
@@ -79,10 +70,16 @@ namespace scree
     void check(const std::string &body, const unsigned int dim) const;
 
     /// The expression of the region; true everywhere if maps alone bound the body.
-    std::string expression() const;
+    std::string expression() const
+    {
+      return region == SeedingParameters().region && source.is_region() ? "1" : region;
+    }
 
     /// Entry and value that place the body, for messages.
-    std::pair<std::string, std::string> place() const;
+    std::pair<std::string, std::string> place() const
+    {
+      return source.is_region() ? source.first() : std::make_pair(std::string("Region"), region);
+    }
 
     /// Whether unit weights say how heavy it is.
     bool has_unit_weights() const
@@ -146,6 +143,36 @@ namespace scree
                              const std::string &expressions,
                              const unsigned int slot,
                              const double width);
+
+  /// A part of the water's region, and how much room there is for water.
+  template <int dim>
+  struct WaterPart
+  {
+    Region<dim> region;     ///< place of the water
+    double porosity;        ///< 1 outside the soil
+    const SoilRegion *soil; ///< null outside
+  };
+
+  /// The water's region, cut along the surfaces of the soil. Refers to `soil`.
+  template <int dim>
+  std::vector<WaterPart<dim>> water_parts(const WaterParameters &parameters, const std::vector<SoilRegion> &soil);
+
+  /// Throws EntryError unless a body in the water has pores.
+  void require_pores(const SoilRegion &soil);
+
+  /// Fills the pores of the points that carry the water: its volume is theirs less the grains', its velocity theirs.
+  /// Water with points of its own: fills its region with them, on a lattice as seed() does. A point's volume is that of
+  /// the water itself: porosity times the part of its cube in soil, plus the part outside; its mass is density times
+  /// volume. They get the velocity of the entry; pressure is 0. Collective; throws EntryError if the region holds no
+  /// volume, or covers a body without pores.
+  /// @param ground only what is in its open is filled; null: all
+  template <int dim>
+  void seed_water(WaterPhase<dim> &water,
+                  const WaterParameters &parameters,
+                  const std::vector<SoilRegion> &soil,
+                  const dealii::Triangulation<dim> &triangulation,
+                  const double cell_size,
+                  const LevelSet<dim> *ground = nullptr);
 } // namespace scree
 
 #endif

@@ -4,8 +4,6 @@
 
 #include <scree/simd/records.h>
 
-#include <cstring>
-
 namespace scree
 {
   namespace simd

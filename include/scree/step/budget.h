@@ -4,8 +4,6 @@
 
 #include <scree/boundary/wall_impulses.h>
 
-#include <deal.II/base/tensor.h>
-
 #include <boost/serialization/vector.hpp>
 
 #include <vector>
@@ -69,7 +67,13 @@ namespace scree
     double dissipation = 0;                        ///< energy that is lost in contact, J
 
     /// Adds the moment of an impulse, N s, on an arm from the pivot, m.
-    void add_moment(const dealii::Tensor<1, dim> &arm, const dealii::Tensor<1, dim> &of_impulse);
+    void add_moment(const dealii::Tensor<1, dim> &arm, const dealii::Tensor<1, dim> &of_impulse)
+    {
+      if constexpr (dim == 2)
+        moment_impulse[0] += arm[0] * of_impulse[1] - arm[1] * of_impulse[0];
+      else
+        moment_impulse += cross_product_3d(arm, of_impulse);
+    }
 
     /// Saves or loads all members (Boost).
     template <class Archive>
@@ -109,13 +113,35 @@ namespace scree
     double n_cavitating         = 0; ///< vertices of this rank held at the cavitation pressure
 
     /// Adds the members of another budget, those of obstacles one by one.
-    Budget &operator+=(const Budget &other);
+    Budget &operator+=(const Budget &other)
+    {
+      if (obstacles.size() < other.obstacles.size())
+        obstacles.resize(other.obstacles.size());
+      Budget addend = other;
+      addend.obstacles.resize(obstacles.size());
+      const NumbersOf sums(*this), addends(addend);
+      for (std::size_t i = 0; i < sums.list.size(); ++i)
+        *sums.list[i] += *addends.list[i];
+      return *this;
+    }
 
     /// Impulse of all obstacles without that against the water's pressure, N s.
-    dealii::Tensor<1, dim> obstacle_impulse() const;
+    dealii::Tensor<1, dim> obstacle_impulse() const
+    {
+      dealii::Tensor<1, dim> sum;
+      for (const ObstacleBalance<dim> &obstacle : obstacles)
+        sum += obstacle.impulse;
+      return sum;
+    }
 
     /// Work less dissipation of all obstacles, J.
-    double obstacle_energy() const;
+    double obstacle_energy() const
+    {
+      double sum = 0.;
+      for (const ObstacleBalance<dim> &obstacle : obstacles)
+        sum += obstacle.work - obstacle.dissipation;
+      return sum;
+    }
 
     /// Saves or loads all members (Boost).
     template <class Archive>

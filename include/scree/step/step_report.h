@@ -7,10 +7,6 @@
 
 #include <deal.II/base/timer.h>
 
-#include <array>
-#include <cmath>
-#include <string>
-
 namespace scree
 {
   /// The parts of a step whose time is reported.

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 #ifndef scree_tensor_principal_h
 #define scree_tensor_principal_h
 
 #include <scree/simd/batch.h>
-#include <scree/tensor/components.h>
 #include <scree/tensor/matrix.h>
 
 #include <algorithm>
-#include <array>
 
 namespace scree
 {

@@ -2,13 +2,8 @@
 #ifndef scree_viscosity_viscous_step_h
 #define scree_viscosity_viscous_step_h
 
-#include <scree/bodies/water_phase.h>
 #include <scree/contact/cut_cells/cut_cell_contact.h>
 #include <scree/transfer/velocity_transfer.h>
-
-#include <list>
-#include <optional>
-#include <vector>
 
 namespace scree
 {
@@ -23,7 +18,11 @@ namespace scree
   public:
     /// Keeps a reference to the grid.
     /// @param viscosity of the water, Pa s
-    ViscousForce(const BackgroundGrid<dim> &grid, const double viscosity);
+    ViscousForce(const BackgroundGrid<dim> &grid, const double viscosity)
+        : grid(grid)
+        , viscosity(viscosity)
+    {
+    }
 
     /// Adds the force of the points, of the velocity of `motion`, whose ghosts hold values, to that of `field`.
     void add(const WaterPhase<dim> &water, const NodalField<dim> &motion, NodalField<dim> &field) const;
@@ -31,7 +30,10 @@ namespace scree
     /// A bound on the rates, 1/s, at which viscosity slows any motion of nodes with lumped masses, for this rank's
     /// points: the largest eigenvalue of M^-1 K is at most max 2 mu V/m sum |grad phi_i|^2/phi_i, by the inequality of
     /// Cauchy and Schwarz for |sum grad phi_i v_i|^2.
-    double largest_rate(const WaterPhase<dim> &water) const;
+    double largest_rate(const WaterPhase<dim> &water) const
+    {
+      return grid.n_nodes_1d() == 2 ? bound<2>(water) : bound<3>(water);
+    }
 
   private:
     template <int n>
@@ -97,7 +99,14 @@ namespace scree
     /// Largest rate of all ranks, 1/s.
     double largest_rate() const;
 
-    double product(const Vector &a, const Vector &b) const; // of all ranks
+    /// Of all ranks.
+    double product(const Vector &a, const Vector &b) const
+    {
+      double sum = 0;
+      for (unsigned int i = 0; i < a.size(); ++i)
+        sum += a[i].soil * b[i].soil + a[i].water * b[i].water;
+      return dealii::Utilities::MPI::sum(sum, grid.communicator());
+    }
 
     const BackgroundGrid<dim> &grid;
     const std::list<WaterPhase<dim>> &water;

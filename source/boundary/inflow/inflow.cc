@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/input/input_error.h>
-#include <scree/particles/region.h>
 #include <scree/boundary/inflow/inflow.h>
 
 #include <deal.II/base/geometry_info.h>
-#include <deal.II/base/mpi.h>
 
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace scree
 {
@@ -59,13 +52,6 @@ namespace scree
 
 
   template <int dim>
-  Tensor<1, dim> Inflow<dim>::velocity_of(const double value) const
-  {
-    return value / (tells_discharge ? open_area * (direction * normal) : 1.) * direction;
-  }
-
-
-  template <int dim>
   void Inflow<dim>::find_places(const InflowParameters &parameters, const LevelSet<dim> *ground)
   {
     const Region<dim> region(entry_name(parameters.subsection, "Region"), parameters.region);
@@ -101,9 +87,7 @@ namespace scree
         cells_of_layer.push_back(grid.fine_cells().box().place_near(place.location));
       }
     require_entry(!layer.empty(),
-                  parameters.subsection,
-                  "Region",
-                  parameters.region,
+                  { parameters.subsection, "Region", parameters.region },
                   std::string("the region is empty behind the section, at ") + "xyz"[face / 2] + " = " +
                       number_text(section) + " m" + (ground ? " and above the ground of subsection Bed" : "") +
                       ". Move the region or the section.");
@@ -141,40 +125,6 @@ namespace scree
           if (is_near)
             own_cells.emplace(place, cell);
         }
-  }
-
-
-  template <int dim>
-  void Inflow<dim>::begin_step(const double time, const double time_step)
-  {
-    const double end = std::min(time + time_step, end_time);
-    const double sum = end > time ? hydrograph.integral(time, end) : 0.;
-    is_open          = lasts(time);
-    mean_velocity    = velocity_of(sum / time_step);
-    step_advance     = time_step * (mean_velocity * normal);
-  }
-
-
-  template <int dim>
-  unsigned int Inflow<dim>::end_step()
-  {
-    front += step_advance;
-    const unsigned long long before = n_layers;
-    // Rounding of the front must not choose the step.
-    n_layers = static_cast<unsigned long long>(std::max(std::floor(front / spacing + 1e-9), double(n_layers)));
-    AssertThrow(step_advance < grid.cell_size(),
-                ExcMessage("Inflow " + name + " enters at " + number_text(mean_velocity.norm()) +
-                           " m/s, by more than a cell in a step. Remedies: a smaller 'Maximum time step' in subsection "
-                           "Time step, a lower speed."));
-    return n_layers - before;
-  }
-
-
-  template <int dim>
-  const typename Inflow<dim>::CellIterator *Inflow<dim>::cell_at(const Point<dim> &x) const
-  {
-    const auto entry = own_cells.find(grid.fine_cells().box().place_near(x));
-    return entry == own_cells.end() ? nullptr : &entry->second;
   }
 
 

@@ -1,15 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/boundary/face_entries.h>
-#include <scree/input/input_error.h>
-#include <scree/input/case_entries.h>
-#include <scree/input/number_table.h>
-#include <scree/particles/region.h>
 #include <scree/boundary/inflow/inflow_parameters.h>
-
-#include <deal.II/base/utilities.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace scree
 {
@@ -21,8 +11,8 @@ namespace scree
   void InflowParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection(subsection);
-    prm.add_parameter("Body", body, "Material that enters: the name of a soil body, or Water.", Patterns::Anything());
-    prm.add_parameter("Saturated", is_saturated, "true: soil enters with its pores full of water.", Patterns::Bool());
+    prm.add_parameter("Body", body, "Material that enters: the name of a soil body, or Water.");
+    prm.add_parameter("Saturated", is_saturated, "true: soil enters with its pores full of water.");
     prm.add_parameter("Face",
                       face,
                       "Face of the box through which the material enters, along the inward normal.",
@@ -30,17 +20,12 @@ namespace scree
     prm.add_parameter("Section",
                       section,
                       "m; coordinate of the inflow section along the normal of the face, a multiple of the point "
-                      "spacing away from it. Empty: at the face.",
-                      Patterns::Anything());
+                      "spacing away from it. Empty: at the face.");
     prm.add_parameter("Region",
                       region,
                       "Open part of the section, where this expression of x, y (z), in m, is true. The part below the "
-                      "bed is left out.",
-                      Patterns::Anything());
-    prm.add_parameter("Speed",
-                      speed,
-                      "m/s; inflow speed, not negative: an expression of t, such as 2*min(t/5, 1).",
-                      Patterns::Anything());
+                      "bed is left out.");
+    prm.add_parameter("Speed", speed, "m/s; inflow speed, not negative: an expression of t, such as 2*min(t/5, 1).");
     add_file_entry(prm,
                    "Hydrograph",
                    hydrograph,
@@ -62,22 +47,6 @@ namespace scree
                       "Boundaries holds at the section.",
                       Patterns::Double(-1));
     prm.leave_subsection();
-  }
-
-
-  unsigned int InflowParameters::face_number(const unsigned int dim) const
-  {
-    const auto names = FaceEntries::names(dim);
-    return std::find(names.begin(), names.end(), face) - names.begin();
-  }
-
-
-  double InflowParameters::place(const GridParameters &grid) const
-  {
-    const unsigned int number = face_number(grid.lower_corner.size());
-    return !is_at_wall()     ? number_of(section)
-           : number % 2 == 0 ? grid.lower_corner[number / 2]
-                             : grid.upper_corner[number / 2];
   }
 
 
@@ -106,9 +75,7 @@ namespace scree
   InflowParameters::check(const GridParameters &grid, const unsigned int dim, const unsigned int points_per_cell) const
   {
     require_entry(face_number(dim) < 2 * dim,
-                  subsection,
-                  "Face",
-                  face,
+                  { subsection, "Face", face },
                   "there is no such wall in 2D. Write Left, Right, Bottom or Top.");
     check_section(grid, dim, points_per_cell);
     check_direction(dim);
@@ -118,41 +85,16 @@ namespace scree
     else
       Region<3>(where, region);
     require_entry(speed.empty() != hydrograph.empty(),
-                  subsection,
-                  speed.empty() ? "Speed" : "Hydrograph",
-                  speed.empty() ? "" : hydrograph,
+                  { subsection, speed.empty() ? "Speed" : "Hydrograph", speed.empty() ? "" : hydrograph },
                   speed.empty() ? "write how fast it enters, such as 1.5, or name a file as \"Hydrograph\"."
                                 : "\"Speed\" = " + speed + " tells the same. Remove one of the two.");
     require_entry(!hydrograph.empty() || hydrograph_of == "speed",
-                  subsection,
-                  "Hydrograph of",
-                  hydrograph_of,
+                  { subsection, "Hydrograph of", hydrograph_of },
                   "this entry has no effect, as there is no \"Hydrograph\". Remove it.");
     require_entry(end_time == -1 || end_time > 0,
-                  subsection,
-                  "End time",
-                  end_time,
+                  { subsection, "End time", end_time },
                   "write a time above 0, in s, or -1 for an inflow that lasts as long as the run.");
     Hydrograph{ *this };
-  }
-
-
-  void InflowParameters::check_direction(const unsigned int dim) const
-  {
-    if (direction.empty())
-      return;
-    const unsigned int number = face_number(dim);
-    const auto texts          = Utilities::split_string_list(direction);
-    require_entry(texts.size() == dim,
-                  subsection,
-                  "Direction",
-                  direction,
-                  "write " + std::to_string(dim) + " numbers, separated by commas.");
-    require_entry(number_of(texts[number / 2]) * (number % 2 == 0 ? 1. : -1.) > 0,
-                  subsection,
-                  "Direction",
-                  direction,
-                  "it does not lead away from \"Face\" = " + face + ". Turn it, or write another face.");
   }
 
 
@@ -163,24 +105,18 @@ namespace scree
     if (is_at_wall())
       return;
     require_entry(!is_water(),
-                  subsection,
-                  "Section",
-                  section,
+                  { subsection, "Section", section },
                   "water enters at a face of the box, which holds it from behind. Remove the entry.");
     const unsigned int axis = face_number(dim) / 2;
     const double x = place(grid), lower = grid.lower_corner[axis], upper = grid.upper_corner[axis];
     const double spacing = grid.cell_size / points_per_cell;
     require_entry(x > lower - 1e-9 * spacing && x < upper + 1e-9 * spacing,
-                  subsection,
-                  "Section",
-                  section,
+                  { subsection, "Section", section },
                   std::string("write a coordinate along ") + "xyz"[axis] + " in the box, from " + number_text(lower) +
                       " to " + number_text(upper) + " m.");
     const double layers = (x - lower) / spacing;
     require_entry(std::abs(layers - std::round(layers)) < 1e-6,
-                  subsection,
-                  "Section",
-                  section,
+                  { subsection, "Section", section },
                   "points stand " + number_text(spacing) +
                       " m apart, and the section has to lie between two of them. "
                       "Write " +
@@ -201,9 +137,7 @@ namespace scree
              parameters.hydrograph, entry_name(parameters.subsection, "Hydrograph"), { "time (s)", quantity }))
       {
         require_entry(numbers[1] >= 0,
-                      parameters.subsection,
-                      "Hydrograph",
-                      parameters.hydrograph,
+                      { parameters.subsection, "Hydrograph", parameters.hydrograph },
                       "at " + number_text(numbers[0]) + " s it is " + number_text(numbers[1]) +
                           ", and nothing flows out of a section. Write 0 or more.");
         record.add(numbers[0], numbers[1]);
@@ -211,23 +145,4 @@ namespace scree
   }
 
 
-  double Hydrograph::value(const double time) const
-  {
-    if (!expression)
-      return record.value(time);
-    const double value = expression->value(Point<1>(time));
-    if (value < 0.)
-      throw ValueError(where + ": it is " + number_text(value) + " m/s at t = " + number_text(time) +
-                       " s, and nothing flows out of a section. Write max(0, ...) around it.");
-    return value;
-  }
-
-
-  double Hydrograph::integral(const double begin, const double end) const
-  {
-    if (!expression)
-      return record.integral(end) - record.integral(begin);
-    const double middle = 0.5 * (begin + end), away = 0.5 * (end - begin) / std::sqrt(3.);
-    return 0.5 * (end - begin) * (value(middle - away) + value(middle + away));
-  }
 } // namespace scree

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 #include <scree/input/input_error.h>
 #include <scree/materials/laws/linear_elastic.h>
 
@@ -23,11 +22,9 @@ namespace scree
 
   void LinearElasticParameters::check(const std::string &subsection) const
   {
-    require_entry(young_modulus > 0, subsection, "Young's modulus", young_modulus, "a positive modulus is needed.");
+    require_entry(young_modulus > 0, { subsection, "Young's modulus", young_modulus }, "a positive modulus is needed.");
     require_entry(poisson_ratio > -1 && poisson_ratio < 0.5,
-                  subsection,
-                  "Poisson's ratio",
-                  poisson_ratio,
+                  { subsection, "Poisson's ratio", poisson_ratio },
                   "it must lie between -1 and 0.5, both excluded; 0.49 is nearly incompressible.");
   }
 } // namespace scree

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 #include <scree/input/input_error.h>
 #include <scree/materials/laws/mohr_coulomb.h>
 
@@ -99,22 +98,16 @@ namespace scree
       {
         falls = falls || value != as_peak;
         require_entry(
-            value >= 0 || value == as_peak, subsection, entry, value, "write 0 or more, or -1 for the peak value.");
+            value >= 0 || value == as_peak, { subsection, entry, value }, "write 0 or more, or -1 for the peak value.");
         require_entry(is_active() || value == as_peak,
-                      subsection,
-                      entry,
-                      value,
+                      { subsection, entry, value },
                       "this entry has no effect without \"Softening strain\". Add one, or remove the entry.");
       }
     require_entry(!is_active() || falls,
-                  subsection,
-                  "Softening strain",
-                  strain,
+                  { subsection, "Softening strain", strain },
                   "no strength falls. Add \"Residual cohesion\" or \"Residual friction angle\".");
     require_entry(is_active() || nonlocal_length == 0,
-                  subsection,
-                  "Nonlocal length",
-                  nonlocal_length,
+                  { subsection, "Nonlocal length", nonlocal_length },
                   "this entry has no effect without \"Softening strain\". Add one, or remove the entry.");
   }
 
@@ -172,7 +165,7 @@ namespace scree
     softening.check(subsection);
     const MohrCoulombParameters last = residual();
     const auto require = [&](const bool is_met, const std::string &entry, const double value, const std::string &text) {
-      require_entry(is_met, subsection, entry, value, text);
+      require_entry(is_met, { subsection, entry, value }, text);
     };
     require(last.cohesion <= cohesion,
             "Residual cohesion",
@@ -211,32 +204,22 @@ namespace scree
   {
     LinearElasticParameters(young_modulus, poisson_ratio).check(subsection);
     require_entry(dilation_angle <= friction_angle,
-                  subsection,
-                  "Dilation angle",
-                  dilation_angle,
+                  { subsection, "Dilation angle", dilation_angle },
                   "beyond the friction angle, here " + number_text(friction_angle) +
                       ", plastic flow would create energy; lower it.");
     require_entry(sine() <= std::sin(radians(89.)),
-                  subsection,
-                  "Friction angle",
-                  friction_angle,
+                  { subsection, "Friction angle", friction_angle },
                   "as an angle of direct shear it has no friction angle phi below 89 degrees; lower it, or change "
                   "\"Friction angle kind\".");
     require_entry(inertial_friction.grain_diameter == 0 || sine() + inertial_friction.friction_increase < 1,
-                  subsection,
-                  "Friction increase",
-                  inertial_friction.friction_increase,
+                  { subsection, "Friction increase", inertial_friction.friction_increase },
                   "with sin(phi) = " + number_text(sine()) +
                       " the grains would bear tension. Write less than 1 - sin(phi).");
     require_entry(friction_angle > 0 || cohesion > 0,
-                  subsection,
-                  "Cohesion",
-                  cohesion,
+                  { subsection, "Cohesion", cohesion },
                   "without friction the soil needs some cohesion to have any strength.");
     require_entry(tension_cut_off <= apex(),
-                  subsection,
-                  "Tension cut-off",
-                  tension_cut_off,
+                  { subsection, "Tension cut-off", tension_cut_off },
                   "cohesion and friction allow at most c cot(phi) = " + std::to_string(apex()) + " Pa; lower it.");
     check_softening(subsection);
   }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 #include <scree/input/input_error.h>
 #include <scree/materials/laws/nor_sand.h>
 
@@ -51,10 +50,11 @@ namespace scree
 
   void SandParameters::check_positive(const std::string &subsection) const
   {
-    require_entry(shear_modulus > 0, subsection, "Shear modulus", shear_modulus, positive);
-    require_entry(reference_pressure > 0, subsection, "Reference pressure", reference_pressure, positive);
-    require_entry(
-        minimum_pressure > 0, subsection, "Minimum pressure", minimum_pressure, std::string(positive) + " 1 Pa does.");
+    require_entry(shear_modulus > 0, { subsection, "Shear modulus", shear_modulus }, positive);
+    require_entry(reference_pressure > 0, { subsection, "Reference pressure", reference_pressure }, positive);
+    require_entry(minimum_pressure > 0,
+                  { subsection, "Minimum pressure", minimum_pressure },
+                  std::string(positive) + " 1 Pa does.");
   }
 
 
@@ -104,29 +104,22 @@ namespace scree
   void NorSandParameters::check(const std::string &subsection) const
   {
     check_positive(subsection);
-    require_entry(swelling_index > 0, subsection, "Swelling index", swelling_index, positive);
-    require_entry(critical_stress_ratio > 0, subsection, "Critical stress ratio M", critical_stress_ratio, positive);
+    require_entry(swelling_index > 0, { subsection, "Swelling index", swelling_index }, positive);
+    require_entry(
+        critical_stress_ratio > 0, { subsection, "Critical stress ratio M", critical_stress_ratio }, positive);
     require_entry(compression_index > swelling_index,
-                  subsection,
-                  "Compression index",
-                  compression_index,
+                  { subsection, "Compression index", compression_index },
                   "it must exceed the swelling index, here " + number_text(swelling_index) + '.');
     require_entry(potential_constant <= yield_constant,
-                  subsection,
-                  "Potential constant N bar",
-                  potential_constant,
+                  { subsection, "Potential constant N bar", potential_constant },
                   "beyond the yield constant N, here " + number_text(yield_constant) +
                       ", plastic flow would create energy; lower it.");
-    require_entry(hardening_coefficient > 0, subsection, "Hardening coefficient", hardening_coefficient, positive);
+    require_entry(hardening_coefficient > 0, { subsection, "Hardening coefficient", hardening_coefficient }, positive);
     require_entry(initial_specific_volume > 1,
-                  subsection,
-                  "Initial specific volume",
-                  initial_specific_volume,
+                  { subsection, "Initial specific volume", initial_specific_volume },
                   "1 is rock without pores; sand lies between 1.3 and 2.");
     require_entry(critical_state_specific_volume > 1,
-                  subsection,
-                  "Critical state specific volume",
-                  critical_state_specific_volume,
+                  { subsection, "Critical state specific volume", critical_state_specific_volume },
                   "1 is rock without pores; sand lies between 1.3 and 2.");
   }
 
@@ -193,37 +186,29 @@ namespace scree
   {
     check_positive(subsection);
     require_entry(poisson_ratio >= 0 && poisson_ratio < 0.5,
-                  subsection,
-                  "Poisson's ratio",
-                  poisson_ratio,
+                  { subsection, "Poisson's ratio", poisson_ratio },
                   "write a value from 0 to less than 0.5.");
     require_entry(modulus_exponent >= 0 && modulus_exponent < 1,
-                  subsection,
-                  "Modulus exponent",
-                  modulus_exponent,
+                  { subsection, "Modulus exponent", modulus_exponent },
                   "write a value from 0 to less than 1; sand has about 0.5.");
     require_entry(critical_stress_ratio > 0 && critical_stress_ratio < 3,
-                  subsection,
-                  "Critical stress ratio M",
-                  critical_stress_ratio,
+                  { subsection, "Critical stress ratio M", critical_stress_ratio },
                   "write a value above 0 and below 3, which would be a friction angle of 90 degrees.");
     require_entry(volumetric_coupling < 1,
-                  subsection,
-                  "Volumetric coupling N",
-                  volumetric_coupling,
+                  { subsection, "Volumetric coupling N", volumetric_coupling },
                   "write a value from 0 to less than 1; sand has 0.2 to 0.45.");
-    require_entry(state_dilatancy > 0, subsection, "State dilatancy", state_dilatancy, positive);
-    require_entry(hardening_modulus > 0, subsection, "Hardening modulus", hardening_modulus, positive);
+    require_entry(state_dilatancy > 0, { subsection, "State dilatancy", state_dilatancy }, positive);
+    require_entry(hardening_modulus > 0, { subsection, "Hardening modulus", hardening_modulus }, positive);
     constexpr double largest_void_ratio = 5;
     const std::string range             = "write a void ratio above 0 and up to 5.";
     const auto is_void_ratio            = [](const double value) { return value > 0 && value <= largest_void_ratio; };
-    require_entry(is_void_ratio(initial_void_ratio), subsection, "Initial void ratio", initial_void_ratio, range);
-    require_entry(is_void_ratio(critical_void_ratio), subsection, "Critical void ratio", critical_void_ratio, range);
-    require_entry(compression_index > 0, subsection, "Compression index", compression_index, "it must be positive.");
+    require_entry(is_void_ratio(initial_void_ratio), { subsection, "Initial void ratio", initial_void_ratio }, range);
+    require_entry(
+        is_void_ratio(critical_void_ratio), { subsection, "Critical void ratio", critical_void_ratio }, range);
+    require_entry(
+        compression_index > 0, { subsection, "Compression index", compression_index }, "it must be positive.");
     require_entry(compression_index * state_dilatancy < 0.9 * critical_stress_ratio,
-                  subsection,
-                  "State dilatancy",
-                  state_dilatancy,
+                  { subsection, "State dilatancy", state_dilatancy },
                   "with the slope " + number_text(compression_index) + " of the critical line it must be below " +
                       number_text(0.9 * critical_stress_ratio / compression_index) + '.');
   }

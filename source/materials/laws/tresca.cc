@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 #include <scree/input/input_error.h>
 #include <scree/materials/laws/tresca.h>
 
@@ -64,8 +63,7 @@ namespace scree
         strength,
         "Pa; undrained shear strength s_u, half of the largest difference of principal stresses, at slow "
         "shear before any softening: an expression of x, y (z) of the place at the start, such as 10e3 or "
-        "10e3 + 2e3*(5 - y).",
-        Patterns::Anything());
+        "10e3 + 2e3*(5 - y).");
     prm.add_parameter(
         "Strength gradient",
         strength_gradient,
@@ -107,28 +105,20 @@ namespace scree
   {
     LinearElasticParameters(young_modulus, poisson_ratio).check(subsection);
     require_entry(
-        !strength.empty(), subsection, "Undrained strength", strength, "write a strength in Pa, such as 10e3.");
+        !strength.empty(), { subsection, "Undrained strength", strength }, "write a strength in Pa, such as 10e3.");
     const TrescaParameters defaults;
     const bool softens = sensitivity > 1;
     require_entry(softens || remoulding_strain == 0,
-                  subsection,
-                  "Remoulding strain",
-                  remoulding_strain,
+                  { subsection, "Remoulding strain", remoulding_strain },
                   "this entry has no effect without \"Sensitivity\" above 1. Add one, or remove the entry.");
     require_entry(!softens || remoulding_strain > 0,
-                  subsection,
-                  "Sensitivity",
-                  sensitivity,
+                  { subsection, "Sensitivity", sensitivity },
                   "strength falls with strain. Add a \"Remoulding strain\", such as 1.");
     require_entry(softens || nonlocal_length == 0,
-                  subsection,
-                  "Nonlocal length",
-                  nonlocal_length,
+                  { subsection, "Nonlocal length", nonlocal_length },
                   "this entry has no effect without \"Sensitivity\" above 1. Add one, or remove the entry.");
     require_entry(rate_increase > 0 || reference_rate == defaults.reference_rate,
-                  subsection,
-                  "Reference rate",
-                  reference_rate,
+                  { subsection, "Reference rate", reference_rate },
                   "this entry has no effect without \"Rate increase\". Add one, or remove the entry.");
   }
 
@@ -167,11 +157,10 @@ namespace scree
   void HerschelBulkleyParameters::check(const std::string &subsection) const
   {
     LinearElasticParameters(young_modulus, poisson_ratio).check(subsection);
-    require_entry(yield_stress > 0, subsection, "Yield stress", yield_stress, "a positive stress is needed, in Pa.");
+    require_entry(
+        yield_stress > 0, { subsection, "Yield stress", yield_stress }, "a positive stress is needed, in Pa.");
     require_entry(consistency > 0 || index == HerschelBulkleyParameters().index,
-                  subsection,
-                  "Flow index",
-                  index,
+                  { subsection, "Flow index", index },
                   "this entry has no effect without \"Consistency\". Write one above 0, or remove the entry.");
   }
 

@@ -7,7 +7,7 @@
 #include "../expect.h"
 #include "../random_numbers.h"
 
-#include <scree/geometry/surfaces.h>
+#include <scree/geometry/bed_parameters.h>
 #include <scree/mesh/discrete_level_set.h>
 
 #include <deal.II/base/mpi.h>

@@ -7,7 +7,7 @@
 
 #include "../expect.h"
 
-#include <scree/seeding/water_seeding.h>
+#include <scree/seeding/seeding.h>
 #include <scree/contact/cut_cells/clamp_to_box.h>
 #include <scree/boundary/wall_gaps.h>
 #include <scree/transfer/water_transfer.h>

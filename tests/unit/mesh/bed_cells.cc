@@ -7,7 +7,7 @@
 #include "../expect.h"
 #include "../random_numbers.h"
 
-#include <scree/geometry/surfaces.h>
+#include <scree/geometry/bed_parameters.h>
 #include <scree/mesh/cut_cells.h>
 #include <scree/mesh/background_grid.h>
 #include <scree/particles/region.h>

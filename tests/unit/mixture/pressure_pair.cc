@@ -9,7 +9,7 @@
 #include "../pattern.h"
 
 #include <scree/pressure/schur_operator.h>
-#include <scree/seeding/water_seeding.h>
+#include <scree/seeding/seeding.h>
 #include <scree/transfer/water_transfer.h>
 
 #include <deal.II/base/mpi.h>

@@ -3,7 +3,7 @@
 // part of the box with oblique edges: it is symmetric, takes energy, adds up to nothing with its moments, does not feel
 // rigid motion, dissipates mu V of unit shear, and no motion is slowed faster than largest_rate() says.
 
-#include <scree/seeding/water_seeding.h>
+#include <scree/seeding/seeding.h>
 #include <scree/viscosity/viscous_step.h>
 
 #include <deal.II/base/mpi.h>

@@ -7,7 +7,7 @@
 #include <scree/mesh/background_grid.h>
 #include <scree/initial/geostatic.h>
 #include <scree/materials/table.h>
-#include <scree/seeding/water_seeding.h>
+#include <scree/seeding/seeding.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -3,8 +3,8 @@
 // The numbers of an advice that follow from those of a scene: groups against hand calculation, regimes over the
 // conductivity, cell sizes that divide the box, steps as the clock takes them, cost in proportion.
 
-#include <scree/advice/cost.h>
-#include <scree/advice/recommendation.h>
+#include <scree/advice/advise.h>
+#include <scree/advice/scene_numbers.h>
 
 #include <cmath>
 #include <iostream>

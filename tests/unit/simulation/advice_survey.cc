@@ -4,7 +4,7 @@
 // calculation; the same on 1 and 2 ranks.
 
 #include <scree/materials/laws/linear_elastic.h>
-#include <scree/advice/cost.h>
+#include <scree/advice/advise.h>
 #include <scree/advice/scene_numbers.h>
 
 #include <deal.II/base/mpi.h>

@@ -13,7 +13,6 @@
 
 #include <scree/materials/table.h>
 #include <scree/seeding/seeding.h>
-#include <scree/seeding/water_seeding.h>
 #include <scree/transfer/water_transfer.h>
 
 #include <deal.II/base/mpi.h>

@@ -2,14 +2,8 @@
 #ifndef scree_boundary_inflow_inflow_h
 #define scree_boundary_inflow_inflow_h
 
-#include <scree/geometry/level_set.h>
-#include <scree/particles/cell_places.h>
 #include <scree/boundary/inflow/inflow_parameters.h>
 #include <scree/mixture/mixture.h>
-
-#include <map>
-#include <string>
-#include <vector>
 
 namespace scree
 {
@@ -45,10 +39,29 @@ namespace scree
     void reinit();
 
     /// Sets velocity() to the mean of the step, s, that comes.
-    void begin_step(const double time, const double time_step);
+    void begin_step(const double time, const double time_step)
+    {
+      const double end = std::min(time + time_step, end_time);
+      const double sum = end > time ? hydrograph.integral(time, end) : 0.;
+      is_open          = lasts(time);
+      mean_velocity    = velocity_of(sum / time_step);
+      step_advance     = time_step * (mean_velocity * normal);
+    }
 
     /// Moves the front by the step of begin_step(); returns how many layers have entered with it.
-    unsigned int end_step();
+    unsigned int end_step()
+    {
+      front += step_advance;
+      const unsigned long long before = n_layers;
+      // Rounding of the front must not choose the step.
+      n_layers = static_cast<unsigned long long>(std::max(std::floor(front / spacing + 1e-9), double(n_layers)));
+      AssertThrow(step_advance < grid.cell_size(),
+                  dealii::ExcMessage(
+                      "Inflow " + name + " enters at " + number_text(mean_velocity.norm()) +
+                      " m/s, by more than a cell in a step. Remedies: a smaller 'Maximum time step' in subsection "
+                      "Time step, a lower speed."));
+      return n_layers - before;
+    }
 
     /// How far the layer that entered last but `back` is beyond its place, m: along the normal.
     double advance_of(const unsigned int back) const
@@ -87,7 +100,11 @@ namespace scree
     }
 
     /// This rank's fine cell near the section that holds a place; null if there is none.
-    const CellIterator *cell_at(const dealii::Point<dim> &x) const;
+    const CellIterator *cell_at(const dealii::Point<dim> &x) const
+    {
+      const auto entry = own_cells.find(grid.fine_cells().box().place_near(x));
+      return entry == own_cells.end() ? nullptr : &entry->second;
+    }
 
     /// Whether the inflow moves a node of the grid.
     bool moves(const unsigned int node) const;
@@ -124,7 +141,10 @@ namespace scree
     void find_places(const InflowParameters &parameters, const LevelSet<dim> *ground);
 
     /// Of a value of the hydrograph.
-    dealii::Tensor<1, dim> velocity_of(const double value) const;
+    dealii::Tensor<1, dim> velocity_of(const double value) const
+    {
+      return value / (tells_discharge ? open_area * (direction * normal) : 1.) * direction;
+    }
 
     const BackgroundGrid<dim> &grid;
     const Hydrograph hydrograph;

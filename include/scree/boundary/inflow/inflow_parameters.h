@@ -2,15 +2,10 @@
 #ifndef scree_boundary_inflow_inflow_parameters_h
 #define scree_boundary_inflow_inflow_parameters_h
 
-#include <scree/mesh/background_grid.h>
-#include <scree/input/expression.h>
+#include <scree/boundary/boundary_conditions.h>
 #include <scree/input/number_table.h>
-
-#include <deal.II/base/parameter_handler.h>
-
-#include <memory>
-#include <string>
-#include <vector>
+#include <scree/mesh/background_grid.h>
+#include <scree/particles/region.h>
 
 namespace scree
 {
@@ -64,10 +59,20 @@ namespace scree
     }
 
     /// The face in deal.II's numbering.
-    unsigned int face_number(const unsigned int dim) const;
+    unsigned int face_number(const unsigned int dim) const
+    {
+      const auto names = FaceEntries::names(dim);
+      return std::find(names.begin(), names.end(), face) - names.begin();
+    }
 
     /// The section's coordinate along the normal of its face, m.
-    double place(const GridParameters &grid) const;
+    double place(const GridParameters &grid) const
+    {
+      const unsigned int number = face_number(grid.lower_corner.size());
+      return !is_at_wall()     ? number_of(section)
+             : number % 2 == 0 ? grid.lower_corner[number / 2]
+                               : grid.upper_corner[number / 2];
+    }
 
     /// Whether the section is the face itself.
     bool is_at_wall() const
@@ -79,7 +84,19 @@ namespace scree
     std::vector<double> unit_direction(const unsigned int dim) const;
 
   private:
-    void check_direction(const unsigned int dim) const;
+    void check_direction(const unsigned int dim) const
+    {
+      if (direction.empty())
+        return;
+      const unsigned int number = face_number(dim);
+      const auto texts          = dealii::Utilities::split_string_list(direction);
+      require_entry(texts.size() == dim,
+                    { subsection, "Direction", direction },
+                    "write " + std::to_string(dim) + " numbers, separated by commas.");
+      require_entry(number_of(texts[number / 2]) * (number % 2 == 0 ? 1. : -1.) > 0,
+                    { subsection, "Direction", direction },
+                    "it does not lead away from \"Face\" = " + face + ". Turn it, or write another face.");
+    }
     void check_section(const GridParameters &grid, const unsigned int dim, const unsigned int points_per_cell) const;
   };
 
@@ -93,10 +110,25 @@ namespace scree
     explicit Hydrograph(const InflowParameters &parameters);
 
     /// At a time, s. Throws ValueError if the expression is negative or no number.
-    double value(const double time) const;
+    double value(const double time) const
+    {
+      if (!expression)
+        return record.value(time);
+      const double value = expression->value(dealii::Point<1>(time));
+      if (value < 0.)
+        throw ValueError(where + ": it is " + number_text(value) + " m/s at t = " + number_text(time) +
+                         " s, and nothing flows out of a section. Write max(0, ...) around it.");
+      return value;
+    }
 
     /// The integral from `begin` to `end`, s: of a file exact, of an expression by Gauss' rule of two places.
-    double integral(const double begin, const double end) const;
+    double integral(const double begin, const double end) const
+    {
+      if (!expression)
+        return record.integral(end) - record.integral(begin);
+      const double middle = 0.5 * (begin + end), away = 0.5 * (end - begin) / std::sqrt(3.);
+      return 0.5 * (end - begin) * (value(middle - away) + value(middle + away));
+    }
 
   private:
     const std::string where;                   // entry_name() of the expression
