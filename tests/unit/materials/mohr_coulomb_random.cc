@@ -252,3 +252,19 @@ void run()
 
 const UnitTest registered("mohr_coulomb_random", run);
 } // namespace test_mohr_coulomb_random
+
+
+// Output:
+// phi 30, psi 0: OK
+// phi 30, psi 10: OK
+// phi 30, psi 10, c 1 kPa, no tension: OK
+// phi 30, psi 10, c 1 kPa, cut-off 500 Pa: OK
+// phi 30, psi 10, c 1 kPa, cut-off at the apex: OK
+// phi 0, c 1 kPa, cut-off 200 Pa: OK
+// gap kept and closed: OK, stress before and after -25000 -25000 Pa
+// cut-off 0 Pa: perfectly plastic, opening at the cut-off kept and closed: OK
+// cut-off 0 Pa: softening, opening at the cut-off kept and closed: OK
+// cut-off 0 Pa: Tresca, opening at the cut-off kept and closed: OK
+// cut-off 2000 Pa: perfectly plastic, opening at the cut-off kept and closed: OK
+// cut-off 2000 Pa: softening, opening at the cut-off kept and closed: OK
+// cut-off 2000 Pa: Tresca, opening at the cut-off kept and closed: OK
