@@ -16,10 +16,10 @@ if ! "$@" >output 2>&1; then
   exit 1
 fi
 case $expected in
-  *.output) cp "$expected" expected ;;
-  *) sed -En '1,/^(\/\/|#) Output.*:$/d; s/^(\/\/|#) ?//p' "$expected" >expected ;;
+  *.output) cp "$expected" wanted ;;
+  *) sed -En '1,/^(\/\/|#) Output.*:$/d; s/^(\/\/|#) ?//p' "$expected" >wanted ;;
 esac
-if ! numdiff -a 1e-6 -r 1e-8 -s ' \t\r\n=,:;<>[](){}^' expected output >difference; then
+if ! numdiff -a 1e-6 -r 1e-8 -s ' \t\r\n=,:;<>[](){}^' wanted output >difference; then
   head -n 50 difference
   echo "Expected: $expected"
   echo "Got:      $directory/output"
