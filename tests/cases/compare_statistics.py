@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""compare_statistics.py FILE FILE TOLERANCE [THICKNESS]: are all rows of two files `statistics` equal?
+"""compare_statistics.py FILE FILE TOLERANCE... [THICKNESS]: are all rows of two files `statistics` equal, and of two others?
 
 Numbers differ by at most TOLERANCE times the largest number of their column. Columns that are differences of large numbers
 have their scale: the energies and momenta that they balance, the largest p, 1 for errors. How the pressure was solved (iterations,
@@ -59,12 +59,11 @@ def largest_difference(first, second, counts):
     return worst
 
 
-def main():
-    first, second = series(sys.argv[1]), series(sys.argv[2])
-    tolerance = float(sys.argv[3])
+def compare(files, tolerance, thickness=None):
+    first, second = map(series, files)
     counts = ()
-    if len(sys.argv) > 4:
-        second = per_metre(second, float(sys.argv[4]))
+    if thickness:
+        second = per_metre(second, thickness)
         counts = [column for column in COUNTS if column in first]
         points = "Points" if first["Points"][0] else "Water points"
         ratio = second[points][0] / first[points][0]
@@ -72,9 +71,15 @@ def main():
             if [ratio * value for value in first[column]] != second[column]:
                 sys.exit(column + ": not the same in every layer")
     difference, column = largest_difference(first, second, counts)
-    print("%d rows, largest difference %.2g%s" % (len(first["Step"]), difference, " in " + column if difference else ""))
+    print("%s and %s: %d rows, largest difference %.2g%s" % (*files, len(first["Step"]), difference, " in " + column if difference else ""))
     if not difference <= tolerance:
         sys.exit("more than %g" % tolerance)
+
+
+def main():
+    *comparisons, thickness = sys.argv[1:] if len(sys.argv) % 3 == 2 else (*sys.argv[1:], 0)
+    for i in range(0, len(comparisons), 3):
+        compare(comparisons[i:i + 2], float(comparisons[i + 2]), float(thickness))
 
 
 main()

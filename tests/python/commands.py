@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """commands.py BUILD SCREE ELEMENT: what the commands of the Python package in BUILD say of wrong arguments, and which files they write."""
 
+import importlib
 import os
 import pathlib
 import py_compile
@@ -8,6 +9,8 @@ import re
 import shutil
 import subprocess
 import sys
+import traceback
+import types
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CASE = """set End time = 2e-3
@@ -55,10 +58,40 @@ class Commands:
 
     def __init__(self, build, path):
         self.build, self.faults = build, []
-        self.environment = {**os.environ, "PATH": path + ":/usr/bin:/bin"}
+        self.environment = {**os.environ, "PATH": path + ":/usr/bin:/bin", "SCREE_PROGRAMS": build}
+        listed = (ROOT / "source" / "python" / "pyproject.toml").read_text(encoding="utf-8")
+        self.modules = {name: importlib.import_module(module) for name, module in re.findall(r'^(scree-[a-z-]+) = "(.*):main"$', listed, re.MULTILINE)}
+
+    def launch(self, command, *arguments):
+        """The command by its launcher."""
+        return subprocess.run([os.path.join(self.build, command), *arguments], capture_output=True, text=True, check=False, env=self.environment)
 
     def run(self, command, *arguments):
-        return subprocess.run([os.path.join(self.build, command), *arguments], capture_output=True, text=True, check=False, env=self.environment)
+        """The command in a copy of this process, which has loaded the packages: that takes most of the time of a launcher."""
+        names = ("stdout", "stderr")
+        child = os.fork()
+        if child == 0:
+            for number, name in enumerate(names, 1):
+                os.dup2(os.open(name, os.O_WRONLY | os.O_CREAT | os.O_TRUNC), number)
+            os.environ.clear()
+            os.environ.update(self.environment)
+            sys.argv = [command, *arguments]
+            code = 0
+            try:
+                self.modules[command].main()
+            except SystemExit as ending:
+                code = int(ending.code or 0) if isinstance(ending.code, (int, type(None))) else print(ending.code, file=sys.stderr) or 1
+            except BaseException:  # pylint: disable=broad-except
+                traceback.print_exc()
+                code = 1
+            sys.stdout.flush()
+            sys.stderr.flush()
+            os._exit(code)  # pylint: disable=protected-access
+        code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+        texts = [pathlib.Path(name).read_text(encoding="utf-8") for name in names]
+        for name in names:
+            os.remove(name)
+        return types.SimpleNamespace(returncode=code, stdout=texts[0], stderr=texts[1])
 
     def refuses(self, wanted, command, *arguments):
         """The command must end with one line that reads as `wanted`."""
@@ -228,10 +261,8 @@ def check_others(commands):
 
 def check_help(commands):
     """Every command has a help that tells about each of its options, and refuses an argument too many in one line."""
-    listed = (ROOT / "source" / "python" / "pyproject.toml").read_text(encoding="utf-8")
-    names = re.findall("^(scree-[a-z-]+) =", listed, re.MULTILINE)
-    for name in names:
-        done = commands.run(name, "--help")
+    for name in commands.modules:
+        done = commands.launch(name, "--help")
         if done.returncode != 0 or re.search(r"^  -\S+( [A-Z_{]\S*)?$\n(?! {10})", done.stdout, re.MULTILINE):
             commands.faults.append(f"{name} --help: exit code {done.returncode}, an option without a word: {done.stdout}")
         commands.refuses(f"^{name}: .*--help lists the arguments", name, "--no-such-option")

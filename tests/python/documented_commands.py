@@ -3,7 +3,7 @@
 
 The blocks of a page run in their order in a folder of its own, with a copy of prm/ and a link to BUILD as build/. A page fails with a command that does.
 All times of the cases, of scree-variant and of --times are divided by 200, so that pictures are where the text asks for them; of the pictures that the
-text does not ask for, most are left out. A factor of safety is searched to 0.3. The commands on the list NOT_RUN do not run; the list must follow the text.
+text does not ask for, most are left out. A factor of safety is searched to 0.3 and, where they fit, with cells of twice the size. The commands on the list NOT_RUN do not run; the list must follow the text.
 
 - quick: without what takes long and does not depend on these times (LONG).
 - full: with it.
@@ -115,7 +115,11 @@ class Page:
         copy_of_cases(self.folder, self.factor, wanted)
         for name in set(re.findall(r"build/scree (prm/\S+\.prm) --safety", self.text)):
             case = self.folder / name
-            case.write_text(prm_files.set_entry(case.read_text(encoding="utf-8"), "Safety/Tolerance", 0.3), encoding="utf-8")
+            entries, text = prm_files.read_entries(case), prm_files.set_entry(case.read_text(encoding="utf-8"), "Safety/Tolerance", 0.3)
+            cell = 2 * float(entries["Mesh/Cell size"])
+            if all(float(side) % cell == 0 for side in entries["Mesh/Upper corner"].split(",")):
+                text = prm_files.set_entry(text, "Mesh/Cell size", cell)
+            case.write_text(text, encoding="utf-8")
         (self.folder / "build").symlink_to(self.build)
         # The quickstart without installation and build: the rest of the script runs.
         shutil.copytree(ROOT / "doc" / "studies" / "reference", self.folder / "doc" / "studies" / "reference")

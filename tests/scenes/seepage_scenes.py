@@ -38,19 +38,17 @@ def start(scree, case, name, entries):
 
 
 def steady_dam(scree):
-    """Rectangular dam of 24 m, 4 m and 16 m: discharge, exit point (12.79 m), balance; the same on 2 and 3 ranks and in a slice in space."""
+    """Rectangular dam of 24 m, 4 m and 16 m: discharge, exit point (12.79 m), balance; the same on 3 ranks and in a slice in space."""
     expected = closed_forms.dupuit_discharge(1e-2, 24, 4, 16)
     inflow, in_air, height, below = start(scree, "seepage/steady_dam", "dam", {})
     check("rectangular dam: discharge over Dupuit's", inflow / expected, 0.98, 1.02)
     check("rectangular dam: outflow over inflow", (in_air + below) / inflow, 1 - 1e-6, 1 + 1e-6)
     check("rectangular dam: exit point, m", height, 12.79 - 0.5, 12.79 + 0.5)
-    for ranks in (2, 3):
-        name = "dam_%d" % ranks
-        with open("dam.prm", encoding="utf-8") as file, open(name + ".prm", "w", encoding="utf-8") as other:
-            other.write(file.read().replace("Output directory = dam", "Output directory = " + name))
-        subprocess.run(["mpirun", "-np", str(ranks), scree, name + ".prm"], check=True, capture_output=True)
-        for own, one in zip(seepage(name), (inflow, in_air, height, below)):
-            check("rectangular dam on %d ranks: over that on one" % ranks, own / one, 1 - 1e-5, 1 + 1e-5)
+    with open("dam.prm", encoding="utf-8") as file, open("dam_3.prm", "w", encoding="utf-8") as other:
+        other.write(file.read().replace("Output directory = dam", "Output directory = dam_3"))
+    subprocess.run(["mpirun", "-np", "3", scree, "dam_3.prm"], check=True, capture_output=True)
+    for own, one in zip(seepage("dam_3"), (inflow, in_air, height, below)):
+        check("rectangular dam on 3 ranks: over that on one", own / one, 1 - 1e-5, 1 + 1e-5)
     flat = start(scree, "seepage/steady_dam", "flat", {"Mesh/Cell size": "1"})
     slice_3d = start(scree, "seepage/steady_dam", "slice", {
         "Dimension": "3", "Mesh/Cell size": "1", "Mesh/Lower corner": "0, 0, 0", "Mesh/Upper corner": "40, 2, 25", "Gravity": "0, 0, -9.81",

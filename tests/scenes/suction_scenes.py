@@ -87,7 +87,7 @@ def check_rain(name, table, fallen):
 
 def rain_slope(scree):
     """A slope of dry sand that stands fails by rain; water that entered is in the box or has run off."""
-    for name, entries in (("dry", {"Rain/Rate": "0"}), ("wet", {})):
+    for name, entries in (("dry", {"Rain/Rate": "0", "End time": "10"}), ("wet", {})):
         table = run(scree, "slopes/rain", "slope_" + name, entries)
         advance = table["Front 99 % (m)"][-1] - table["Front 99 % (m)"][0]
         if name == "wet":

@@ -54,3 +54,18 @@ void run()
 
 const UnitTest registered("divided_strength", run);
 } // namespace test_divided_strength
+
+
+// Output:
+// triaxial, factor 0.25: tan(phi) 4, c 4, residual tan(phi) 4, residual c 4, psi 5
+// direct shear or repose, factor 0.25: tan(phi) 4, c 4, residual tan(phi) 4, residual c 4, psi 5
+// softening, factor 0.25: tan(phi) 4, c 4, residual tan(phi) 4, residual c 4, psi 5
+// inertial friction, factor 0.25: tan(phi) 4, c 4, residual tan(phi) 4, residual c 4, psi 5
+// triaxial, factor 1: tan(phi) 1, c 1, residual tan(phi) 1, residual c 1, psi 5
+// direct shear or repose, factor 1: tan(phi) 1, c 1, residual tan(phi) 1, residual c 1, psi 5
+// softening, factor 1: tan(phi) 1, c 1, residual tan(phi) 1, residual c 1, psi 5
+// inertial friction, factor 1: tan(phi) 1, c 1, residual tan(phi) 1, residual c 1, psi 5
+// triaxial, factor 2: tan(phi) 0.5, c 0.5, residual tan(phi) 0.5, residual c 0.5, psi 5
+// direct shear or repose, factor 2: tan(phi) 0.5, c 0.5, residual tan(phi) 0.5, residual c 0.5, psi 5
+// softening, factor 2: tan(phi) 0.5, c 0.5, residual tan(phi) 0.5, residual c 0.5, psi 5
+// inertial friction, factor 2: tan(phi) 0.5, c 0.5, residual tan(phi) 0.5, residual c 0.5, psi 5

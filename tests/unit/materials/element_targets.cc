@@ -92,3 +92,25 @@ void run()
 
 const UnitTest registered("element_targets", run);
 } // namespace test_element_targets
+
+
+// Output:
+// dense, drained, 10 kPa: peak q/P: 1.0876, target 1.0890: OK
+// dense, drained, 10 kPa: v at 50 %: 1.7625, target 1.7630: OK
+// dense, drained, 50 kPa: peak q/P: 1.0360, target 1.0370: OK
+// dense, drained, 50 kPa: v at 50 %: 1.7435, target 1.7440: OK
+// dense, drained, 100 kPa: peak q/P: 1.0138, target 1.0140: OK
+// dense, drained, 100 kPa: v at 50 %: 1.7353, target 1.7350: OK
+// loose, drained, 10 kPa: peak q/P: 0.8025, target 0.8030: OK
+// loose, drained, 10 kPa: v at 50 %: 1.7653, target 1.7650: OK
+// loose, drained, 50 kPa: peak q/P: 0.7526, target 0.7530: OK
+// loose, drained, 50 kPa: v at 50 %: 1.7465, target 1.7470: OK
+// loose, drained, 100 kPa: peak q/P: 0.7315, target 0.7320: OK
+// loose, drained, 100 kPa: v at 50 %: 1.7384, target 1.7380: OK
+// v_0 1.629000, undrained: P at 20 %, kPa: 2381.1845, target 2381.0000: OK
+// v_0 1.736000, undrained: P at 20 %, kPa: 141.0406, target 141.0000: OK
+// v_0 1.760000, undrained: P at 20 %, kPa: 25.4441, target 25.4000: OK
+// dense, simple shear: peak shear/vertical stress: 0.7460, target 0.7470: OK
+// dense, simple shear: shear/vertical stress at the end: 0.4134, target 0.4130: OK
+// loose, simple shear: peak shear/vertical stress: 0.4673, target 0.4680: OK
+// loose, simple shear: shear/vertical stress at the end: 0.4102, target 0.4100: OK

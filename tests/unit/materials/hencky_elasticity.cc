@@ -105,3 +105,12 @@ void run()
 
 const UnitTest registered("hencky_elasticity", run);
 } // namespace test_hencky_elasticity
+
+
+// Output:
+// linear elastic: stress is the derivative of the energy: OK
+// Mohr-Coulomb: stress is the derivative of the energy: OK
+// Nor-Sand: stress is the derivative of the energy: OK
+// linear elastic: plane strain is 3D: OK, 1000 sub-steps
+// Mohr-Coulomb: plane strain is 3D: OK, 1000 sub-steps
+// Nor-Sand: plane strain is 3D: OK, 2946 sub-steps

@@ -110,3 +110,9 @@ void run()
 
 const UnitTest registered("herschel_bulkley", run);
 } // namespace test_herschel_bulkley
+
+
+// Output:
+// K = 2000, n = 1: OK
+// K = 2000, n = 0.5: OK
+// K = 20000, n = 1: OK

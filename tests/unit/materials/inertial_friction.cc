@@ -94,3 +94,8 @@ void run()
 
 const UnitTest registered("inertial_friction", run);
 } // namespace test_inertial_friction
+
+
+// Output:
+// Mohr-Coulomb: OK
+// Bounds: OK

@@ -184,3 +184,17 @@ void run()
 
 const UnitTest registered("jefferies_been_random", run);
 } // namespace test_jefferies_been_random
+
+
+// Output:
+// n = 0, energy: OK
+// n = 0.5, energy: OK
+// n = 0.9, energy: OK
+// derivatives: OK
+// derivatives: OK
+// line, increments to 0.001000: OK
+// N = 0.4, increments to 0.001000: OK
+// line, increments to 0.010000: OK
+// N = 0.4, increments to 0.010000: OK
+// line, increments to 0.100000: OK
+// N = 0.4, increments to 0.100000: OK

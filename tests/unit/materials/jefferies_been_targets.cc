@@ -167,3 +167,17 @@ void run()
 
 const UnitTest registered("jefferies_been_targets", run);
 } // namespace test_jefferies_been_targets
+
+
+// Output:
+// undrained, largest q, kPa: 216.0225, target 216.0000: OK
+// undrained, strain there, %: 0.2700, target 0.2700: OK
+// undrained, q at 1 %, kPa: 38.0678, target 38.1000: OK
+// undrained, q at 2 %, kPa: 4.1400, target 4.1400: OK
+// undrained, q at 5 %, kPa: 3.3996, target 3.4000: OK
+// undrained, p at critical state, kPa: 2.9057, target 2.9057: OK
+// undrained, q/p there: 1.1700, target 1.1700: OK
+// drained, e_0 0.587000: largest q/p: 1.6590, target 1.6614: OK
+// drained, e_0 0.650000: largest q/p: 1.4695, target 1.4713: OK
+// cyclic shear, void ratio from 0.790000: 0.7498, target 0.7500: OK
+// cyclic shear, void ratio from 0.650000: 0.7085, target 0.7090: OK

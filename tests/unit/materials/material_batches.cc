@@ -314,3 +314,42 @@ void run()
 
 const UnitTest registered("material_batches", run);
 } // namespace test_material_batches
+
+
+// Output:
+// 2D, elastic, small strain: OK
+// 2D, elastic, large strain: OK
+// 2D, sand, inside the yield surface: OK
+// 2D, sand, yielding: OK
+// 2D, sand, mixed with sub-steps: OK
+// 2D, sand, pulled apart and to the vertex: OK
+// 2D, N = 0: OK
+// 3D, elastic, small strain: OK
+// 3D, elastic, large strain: OK
+// 3D, sand, inside the yield surface: OK
+// 3D, sand, yielding: OK
+// 3D, sand, mixed with sub-steps: OK
+// 3D, sand, pulled apart and to the vertex: OK
+// 3D, N = 0: OK
+// 2D, Mohr-Coulomb, inside the yield surface: OK
+// 2D, Mohr-Coulomb, faces, edges, pulled apart: OK
+// 2D, Mohr-Coulomb, nearly isotropic: OK
+// 2D, Mohr-Coulomb, inertial friction: OK
+// 2D, Mohr-Coulomb, psi, c, no tension: OK
+// 2D, Mohr-Coulomb, cut-off: OK
+// 2D, Mohr-Coulomb, no friction: OK
+// 3D, Mohr-Coulomb, inside the yield surface: OK
+// 3D, Mohr-Coulomb, faces, edges, pulled apart: OK
+// 3D, Mohr-Coulomb, nearly isotropic: OK
+// 3D, Mohr-Coulomb, inertial friction: OK
+// 3D, Mohr-Coulomb, psi, c, no tension: OK
+// 3D, Mohr-Coulomb, cut-off: OK
+// 3D, Mohr-Coulomb, no friction: OK
+// 2D, Jefferies-Been, inside the yield surface: OK
+// 2D, Jefferies-Been, yielding: OK
+// 2D, Jefferies-Been, pulled apart and to the vertex: OK
+// 3D, Jefferies-Been, inside the yield surface: OK
+// 3D, Jefferies-Been, yielding: OK
+// 3D, Jefferies-Been, pulled apart and to the vertex: OK
+// 2D, odd states: OK
+// 3D, odd states: OK

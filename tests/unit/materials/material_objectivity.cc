@@ -89,3 +89,12 @@ void run()
 
 const UnitTest registered("material_objectivity", run);
 } // namespace test_material_objectivity
+
+
+// Output:
+// linear elastic, angle 0.0007, strain 0.0002 a step: error below 1e-09: OK, sub-steps 1000
+// Mohr-Coulomb, angle 0.0007, strain 0.0002 a step: error below 1e-09: OK, sub-steps 1000
+// Nor-Sand, angle 0.0007, strain 0.0002 a step: error below 1e-09: OK, sub-steps 1000
+// linear elastic, angle 0.1, strain 0.0002 a step: error below 1e-09: OK, sub-steps 1000
+// Mohr-Coulomb, angle 0.1, strain 0.0002 a step: error below 1e-09: OK, sub-steps 1000
+// Nor-Sand, angle 0.0004, strain 0.0025 a step: error below 0.0001: OK, sub-steps 3000

@@ -132,3 +132,46 @@ void run()
 
 const UnitTest registered("material_refusals", run);
 } // namespace test_material_refusals
+
+
+// Output:
+// linear elastic, 2D: not a number: OK
+// linear elastic, 2D: inside out: OK
+// linear elastic, 2D: no volume: OK
+// linear elastic, 3D: not a number: OK
+// linear elastic, 3D: inside out: OK
+// linear elastic, 3D: no volume: OK
+// Mohr-Coulomb, 2D: not a number: OK
+// Mohr-Coulomb, 2D: inside out: OK
+// Mohr-Coulomb, 2D: no volume: OK
+// Mohr-Coulomb, 3D: not a number: OK
+// Mohr-Coulomb, 3D: inside out: OK
+// Mohr-Coulomb, 3D: no volume: OK
+// Nor-Sand, 2D: not a number: OK
+// Nor-Sand, 2D: inside out: OK
+// Nor-Sand, 2D: no volume: OK
+// Nor-Sand, 2D: beyond all sub-steps: OK
+// Nor-Sand, 3D: not a number: OK
+// Nor-Sand, 3D: inside out: OK
+// Nor-Sand, 3D: no volume: OK
+// Nor-Sand, 3D: beyond all sub-steps: OK
+// Nor-Sand (Jefferies-Been), 2D: not a number: OK
+// Nor-Sand (Jefferies-Been), 2D: inside out: OK
+// Nor-Sand (Jefferies-Been), 2D: no volume: OK
+// Nor-Sand (Jefferies-Been), 2D: beyond all sub-steps: OK
+// Nor-Sand (Jefferies-Been), 3D: not a number: OK
+// Nor-Sand (Jefferies-Been), 3D: inside out: OK
+// Nor-Sand (Jefferies-Been), 3D: no volume: OK
+// Nor-Sand (Jefferies-Been), 3D: beyond all sub-steps: OK
+// Nor-Sand under tension: OK
+// Nor-Sand, K0 too small: OK
+// Nor-Sand (Jefferies-Been) under tension: OK
+// Nor-Sand (Jefferies-Been), K0 too small: OK
+// Mohr-Coulomb, K0 too small: OK
+// Nor-Sand, Potential constant N bar: OK
+// Nor-Sand, Compression index: OK
+// Nor-Sand, Critical stress ratio M: OK
+// Nor-Sand, Initial specific volume: OK
+// Mohr-Coulomb, Dilation angle: OK
+// Mohr-Coulomb, Tension cut-off: OK
+// Mohr-Coulomb, Poisson's ratio: OK

@@ -13,6 +13,7 @@
 #include "../random_numbers.h"
 #include "one_point.h"
 
+#include "../expect.h"
 #include "../unit_test.h"
 
 namespace test_mohr_coulomb_random
@@ -229,8 +230,25 @@ void test_openings(const double cut_off)
 }
 
 
+/// The apex lies at c / tan(phi); an angle of direct shear is phi with associated flow, and tan(phi) takes the place of
+/// sin(phi) without dilation (Davis 1968).
+void test_strength()
+{
+  MohrCoulombParameters parameters;
+  parameters.friction_angle = 30;
+  parameters.cohesion       = 1e3;
+  expect(parameters.apex(), 1e3 * std::sqrt(3.), 1e-9, "apex, Pa");
+  parameters.angle_kind = "direct shear or repose";
+  expect(parameters.sine(), 1. / std::sqrt(3.), 1e-12, "sin(phi) of direct shear, psi = 0");
+  parameters.dilation_angle = 30;
+  expect(parameters.sine(), 0.5, 1e-12, "sin(phi) of direct shear, psi = phi");
+  std::cout << "strength: OK" << std::endl;
+}
+
+
 void run()
 {
+  test_strength();
   RandomNumbers random;
   MohrCoulombParameters parameters;
   test_random("phi 30, psi 0", parameters, random);
@@ -252,3 +270,20 @@ void run()
 
 const UnitTest registered("mohr_coulomb_random", run);
 } // namespace test_mohr_coulomb_random
+
+
+// Output:
+// strength: OK
+// phi 30, psi 0: OK
+// phi 30, psi 10: OK
+// phi 30, psi 10, c 1 kPa, no tension: OK
+// phi 30, psi 10, c 1 kPa, cut-off 500 Pa: OK
+// phi 30, psi 10, c 1 kPa, cut-off at the apex: OK
+// phi 0, c 1 kPa, cut-off 200 Pa: OK
+// gap kept and closed: OK, stress before and after -25000 -25000 Pa
+// cut-off 0 Pa: perfectly plastic, opening at the cut-off kept and closed: OK
+// cut-off 0 Pa: softening, opening at the cut-off kept and closed: OK
+// cut-off 0 Pa: Tresca, opening at the cut-off kept and closed: OK
+// cut-off 2000 Pa: perfectly plastic, opening at the cut-off kept and closed: OK
+// cut-off 2000 Pa: softening, opening at the cut-off kept and closed: OK
+// cut-off 2000 Pa: Tresca, opening at the cut-off kept and closed: OK

@@ -67,3 +67,9 @@ void run()
 
 const UnitTest registered("nor_sand_gap", run);
 } // namespace test_nor_sand_gap
+
+
+// Output:
+// pulled on in several sub-steps (1): points apart: 1
+// gap opened at ln J = 0.0184207 and closed there: OK
+// pressure before and after, kPa: 10 1.97818

@@ -99,3 +99,11 @@ void run()
 
 const UnitTest registered("nor_sand_random", run);
 } // namespace test_nor_sand_random
+
+
+// Output:
+// dense, 3000000 updates: OK
+// dense, extreme, 200000 updates: OK
+// loose, extreme, 200000 updates: OK
+// not associated, extreme, 200000 updates: OK
+// Cam-Clay N = 0, extreme, 200000 updates: OK

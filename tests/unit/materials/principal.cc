@@ -75,3 +75,8 @@ void run()
 
 const UnitTest registered("principal", run);
 } // namespace test_principal
+
+
+// Output:
+// 2D: logarithmic strain to 5e-15, composition to 1e-14: OK
+// 3D: logarithmic strain to 5e-15, composition to 1e-14: OK

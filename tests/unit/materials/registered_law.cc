@@ -81,3 +81,10 @@ void run()
 
 const UnitTest registered_test("registered_law", run);
 } // namespace test_registered_law
+
+
+// Output:
+// Herschel-Bulkley; linear elastic; Moduli; Mohr-Coulomb; Nor-Sand; Nor-Sand (Jefferies-Been); rigid; Tresca;
+// subsection Soil/Moduli, entry "Shear modulus" = 3e+06
+// 3 3 5
+// subsection Soil/Moduli, entry "Bulk modulus" = 0: a positive modulus is needed.

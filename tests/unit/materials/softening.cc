@@ -243,3 +243,18 @@ void run()
 
 const UnitTest registered("softening", run);
 } // namespace test_softening
+
+
+// Output:
+// phi 0, c 20 to 5 kPa: OK
+// phi 0, c, as without softening: OK
+// 2D, phi 0, c 20 to 5 kPa, in lanes: OK
+// 3D, phi 0, c 20 to 5 kPa, in lanes: OK
+// phi 0, c 20 to 5 kPa, cut-off 2 kPa: OK
+// phi 35 to 25, psi 10 to 0, c 20 to 5 kPa: OK
+// phi 35, psi 10, c, as without softening: OK
+// 2D, phi 35 to 25, psi 10 to 0, c 20 to 5 kPa, in lanes: OK
+// 3D, phi 35 to 25, psi 10 to 0, c 20 to 5 kPa, in lanes: OK
+// phi 35 to 25, psi 10 to 0, c 20 kPa to 0: OK
+// phi 35 to 25, psi 10 to 0, no cohesion: OK
+// Pure shear: OK

@@ -270,3 +270,21 @@ void run()
 
 const UnitTest registered("tresca", run);
 } // namespace test_tresca
+
+
+// clang-format off
+// Output:
+// slow clay: OK
+// clay: OK
+// clay with cut-off: OK
+// mud, n = 0.5: OK
+// mud, n = 1: OK
+// mud, n = 1.5: OK
+// 2D, clay, in lanes: OK
+// 3D, clay, in lanes: OK
+// 2D, mud, n = 0.5, in lanes: OK
+// Softening in shear: OK
+// Rates of shear: OK
+// subsection Soil/Tresca, entry "Undrained strength" = 1e3 + 2e3*(5 - y): the value at 1, 6 m is -1000. Write an expression that is positive in the whole body.
+// subsection Soil/Tresca, entry "Undrained strength" = 1e3 + 2e3*(5 - y): the value at 1, -1000 m is 2.011e+06. Beyond 215517, strength falls faster with strain than elastic stress can. Write a larger "Remoulding strain" or "Young's modulus".
+// Strength of the place: OK

@@ -271,3 +271,12 @@ void run()
 
 const UnitTest registered("bed_cells", run);
 } // namespace test_bed_cells
+
+
+// Output:
+// 2D: planes at any angle
+// 3D: planes at any angle
+// 2D: volume and area of a ball, of second order
+// 3D: volume and area of a ball, of second order
+// 2D: volume of what is seeded
+// 3D: volume of what is seeded

@@ -88,3 +88,10 @@ void run()
 
 const UnitTest registered("grid_occupied_blocks", run);
 } // namespace test_grid_occupied_blocks
+
+
+// Output of mpirun=1,2:
+// 2D, ball with a tail: 38 blocks, missing 0, more 0
+// 2D, layer: 18 blocks, missing 0, more 0
+// 3D, ball with a tail: 108 blocks, missing 0, more 0
+// 3D, layer: 270 blocks, missing 0, more 0

@@ -99,3 +99,13 @@ void run()
 
 const UnitTest registered("drag_law", run);
 } // namespace test_drag_law
+
+
+// Output:
+// n = 0.3: gradient is Ergun's: yes, conductivity, cm/s: 2.48986, rho_w g/gradient of slow flow, cm/s: 2.48986
+// n = 0.4: gradient is Ergun's: yes, conductivity, cm/s: 8.03313, rho_w g/gradient of slow flow, cm/s: 8.03313
+// n = 0.9: gradient is Ergun's: yes, conductivity, cm/s: 3294.09, rho_w g/gradient of slow flow, cm/s: 3294.09
+// constant: 2 cm/s, inertial 0
+// Kozeny-Carman: 2 cm/s at the start, 5.625 cm/s looser
+// 10000 random pairs: slip of the step: yes
+// slip of 1 m/s after a step with a dt of 2 and of 6 s/m: 0.5 0.333333

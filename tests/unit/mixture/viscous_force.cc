@@ -209,3 +209,10 @@ void run()
 
 const UnitTest registered("viscous_force", run);
 } // namespace test_viscous_force
+
+
+// Output of mpirun=1,2:
+// 2D spline: water OK
+// 3D spline: water OK
+// 2D linear: water OK
+// 3D linear: water OK

@@ -103,3 +103,9 @@ void run()
 
 const UnitTest registered("points_k0_start", run);
 } // namespace test_points_k0_start
+
+
+// Output of mpirun=1,2:
+// 2D slope: OK, 29922.3 Pa
+// 3D slope: OK, 14490.7 Pa
+// 2D layers: OK, 12983.6 Pa

@@ -166,3 +166,13 @@ void run()
 
 const UnitTest registered("points_water_start", run);
 } // namespace test_points_water_start
+
+
+// Output of mpirun=1,2:
+// 2D pool: pressure OK, up to 7088.95 Pa; stress OK, up to 0 Pa
+// 2D submerged: pressure OK, up to 8798.34 Pa; stress OK, up to 4543.26 Pa
+// 2D submerged incline: pressure OK, up to 8798.34 Pa; stress OK, up to 6360.56 Pa
+// 2D water table inside: pressure OK, up to 4474.59 Pa; stress OK, up to 9403.62 Pa
+// 2D saturated layers: pressure OK, up to 7792.82 Pa; stress OK, up to 8687.98 Pa
+// 2D gravity to the right: pressure OK, up to 7792.82 Pa; stress OK, up to 4543.26 Pa
+// 3D submerged: pressure OK, up to 8798.34 Pa; stress OK, up to 6360.56 Pa

@@ -60,3 +60,16 @@ void run()
 
 const UnitTest registered("unit_weights", run);
 } // namespace test_unit_weights
+
+
+// Output:
+// both unit weights: OK
+// both, and what follows: OK
+// dry, porosity: OK
+// dry, grain density: OK
+// saturated, porosity: OK
+// saturated, grain density: OK
+// another porosity: refused, OK
+// another grain density: refused, OK
+// exchanged: refused, OK
+// kN/m^3: refused, OK

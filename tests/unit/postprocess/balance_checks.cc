@@ -97,3 +97,35 @@ void run()
 
 const UnitTest balance_checks_test("balance_checks", run);
 } // namespace test_balance_checks
+
+
+// clang-format off
+// Output:
+// nothing known: 0 results
+// at rest
+// Checks      within bounds: mass balance 0
+// in motion: 20 J are missing
+// Checks      within bounds: mass balance 0; momentum balance 0; largest energy gain 0 %;
+//             numerical dissipation 20 % of the released energy
+// stopped, with a gain of 2 J
+// Checks      out of bounds: largest energy gain 2 % (bound 0.5 %)
+//             within bounds: mass balance 0; momentum balance 0;
+//             numerical dissipation 18.5 % of the released energy
+// a bed that gives 3 J
+// Checks      out of bounds: largest energy gain 3 %, of the bed (bound 0.5 %)
+//             within bounds: mass balance 0; momentum balance 0;
+//             numerical dissipation 18.5 % of the released energy
+// 1.6 kg and 0.16 N s too much
+// Checks      out of bounds: mass balance 0.01 (bound 1e-06); momentum balance 0.001 (bound 1e-06);
+//             largest energy gain 3 %, of the bed (bound 0.5 %)
+//             within bounds: numerical dissipation 18.5 % of the released energy
+// masses times 4, in motion: 80 J are missing
+// Checks      out of bounds:
+//             mean kinetic energy 80 % of the work, with masses times 4; 20 % with true ones (bound 0.1 %, else "Mass scaling" is too large)
+//             within bounds: mass balance 0; momentum balance 0; largest energy gain 0 %;
+//             numerical dissipation 20 % of the released energy
+// layout
+// Checks      out of bounds: second check of a long name 2 (bound 1)
+//             worst: a point at (0, 0) m, t = 1 s: so it is
+//             within bounds: first check of a long name 1; third check of a long name 3;
+//             fourth check of a long name 4

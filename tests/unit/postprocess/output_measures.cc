@@ -276,3 +276,20 @@ void run()
 
 const UnitTest registered("output_measures", run);
 } // namespace test_output_measures
+
+
+// Output of mpirun=1,2:
+// 2D invariants: OK
+// 3D invariants: OK
+// 2D percentiles: OK 0.125 0.325 0.725
+// 3D percentiles: OK 0.125 0.325 0.725
+// 2D oscillation: linear 0 OK, turns of points 1, of cells 1.04492
+// 3D oscillation: linear 0 OK, turns of points 1, of cells 0.985881
+// 2D percentiles at a tie: OK
+// 3D percentiles at a tie: OK
+// 2D water: outside soil 0.5, volume error 0.222222
+// 3D water: outside soil 0.5, volume error 0.222222
+// 2D oscillation of p: OK
+// 3D oscillation of p: OK
+// 2D carried water: OK
+// 3D carried water: OK

@@ -183,3 +183,13 @@ void run()
 
 const UnitTest registered("output_probes", run);
 } // namespace test_output_probes
+
+
+// Output of mpirun=1,2:
+// 2D places: OK
+// 3D places: OK
+// 2D columns: OK
+// 3D columns: OK
+// wedge: OK
+// 2D numbers: OK
+// 3D numbers: OK

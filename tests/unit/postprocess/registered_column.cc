@@ -55,3 +55,21 @@ void run()
 
 const UnitTest registered_test("registered_column", run);
 } // namespace test_registered_column
+
+
+// Output:
+// # 15: Points lost
+// # 16: Mass lost (kg)
+// # 15: Points lost
+// # 16: Mass lost (kg)
+// # 17: Cells
+// # 18: Mean velocity x (m/s)
+// # 19: Mean velocity y (m/s)
+// # 16: Points lost
+// # 17: Mass lost (kg)
+// # 16: Points lost
+// # 17: Mass lost (kg)
+// # 18: Cells
+// # 19: Mean velocity x (m/s)
+// # 20: Mean velocity y (m/s)
+// # 21: Mean velocity z (m/s)

@@ -88,3 +88,38 @@ void run()
 
 const UnitTest registered_test("table_files", run);
 } // namespace test_table_files
+
+
+// Output:
+// Time (s) -> time_s
+// Step -> step
+// Momentum x (N s) -> momentum_x_Ns
+// Front 90 % (m) -> front_90_m
+// Front 99.5 % (m) -> front_99_5_m
+// Stress oscillation (-) -> stress_oscillation
+// p oscillation (-) -> p_oscillation
+// Obstacle Pier-1 moment z (N m) -> obstacle_pier_1_moment_z_Nm
+// Velocity x (m/s) -> velocity_x_m_s
+// mass (kg/m^2) -> mass_kg_m2
+// Density (kg/m^3) -> density_kg_m3
+// Rate (1/s) -> rate_1_s
+// Fill (%) -> fill_percent
+// time_s,force_a_N,force_a_N_2
+// tables/table.csv:
+// time_s,front_90_m,step
+// 0,0.3333333333333,0
+// 0.1,nan,12
+// 0.2,1e-20,24
+// tables/table:
+// # 1: Time (s)
+// # 2: Front 90 % (m)
+// # 3: Step
+// 0.000000000000e+00 3.333333333333e-01 0.000000000000e+00
+// 1.000000000000e-01 1.000000000000e+06 1.200000000000e+01
+// tables/table.csv:
+// time_s,front_90_m,step
+// 0,0.3333333333333,0
+// 0.1,1000000,12
+// end 40 s, every 5 s: 00s 05s 40s
+// end 2 s, every 0.05 s: 0.00s 0.05s 2.00s
+// end 1 s, every 0.333333 s: 0.000000000s 0.333333333s 1.000000000s

@@ -270,3 +270,33 @@ void run()
 
 const UnitTest registered("advice_groups", run);
 } // namespace test_advice_groups
+
+
+// clang-format off
+// Output:
+// Terzaghi: c_v 0.113263 m^2/s, drainage time 8.829 s, T_v 1, cells 20
+//   drag time over (1590 400/1990)/1.5696e6 s: 1; wave H/c over 1/sqrt(1.1111e6/1590): 1
+// Slope: sqrt(H/g) 0.451524 s, rho g H/M in per mille 3.99407, rho g H/G 9.3195, Mach number in per cent 5.61535, drainage over motion 1.86227
+// Dry: density 1500, drainage 0
+// Regimes of the slope over k: 1e1 coupled 1e-1 coupled 1e-3 coupled 1e-5 coupled 1e-7 undrained 1e-9 undrained
+// At the threshold: drainage over threshold 1, drained coupled
+// At the threshold: drainage over threshold 1, coupled undrained
+// The same for 100 s: coupled
+// Without water: dry; without soil: water alone
+// Points of water: slope double, tight slope single, Terzaghi single, with a reservoir double
+// Error of the run-out: law and its inverse 1, halved cells 2
+// Error of stress and pressure: law and its inverse 1, halved cells 4
+// Error of a dry slope with 20 and 30 cells over its height, in per cent; on a fixed base 19 and 12 measured: 19, 12.6667; with friction 7.7 at 20: 8
+// Whether finer cells help: slope 1, on a fixed base, dry, 0, tight slope 0
+// Whether the error is known: dry slope 1, slope 1, on a fixed base 0, tight slope 0, dam 1, Terzaghi 1; cyclic load 0, reservoir 0, before T_v = 0.1 0, still water 0, level soil 0
+// Promised for Terzaghi in 200 cells over the least that was measured: 1; Courant number beside a reservoir 0.6
+// At least 1 cells over 2 m: 10.4; over the box 52 x 13
+// At least 20 cells over 2 m: 20; over the box 100 x 25
+// At least 46 cells over 2 m: 46.4; over the box 232 x 58
+// At least 115 cells over 2 m: 115.2; over the box 576 x 144
+// A box of 7 x 13 cells, at least 25 over 1 m: 30
+// Courant number: slope 0.6, Terzaghi 0.9; step of free water over cell 0.04
+// Terzaghi: step over 0.6 h/c 1, steps over the clock's 1, seconds of steps over steps times step 1
+// With a pilot: law 1, solve 3, sort 4 times; steps over the first guess 1.5, seconds of later steps 1
+// Halved cells in 3D: points 8, time of a step 8, steps 2
+// Soil without its water: 0.65 of the cost of a step

@@ -105,3 +105,15 @@ void run()
 
 const UnitTest registered("advice_survey", run);
 } // namespace test_advice_survey
+
+
+// clang-format off
+// Output of mpirun=1,2:
+// 2D dry: height 1, fall 0.25, cells 400, occupied 100, soil points 400, water points 0, porosity 0.4, density / 1000 1.5, M / 1e6 1.11111, c / 10 2.72166, elastic 1, points of all sets 400
+// 2D submerged: height 1, fall 0.28125, cells 400, occupied 150, soil points 400, water points 600, porosity 0.4, density / 1000 1.9, M / 1e6 1.11111, c / 10 2.72166, elastic 1, points of all sets 1000
+// 2D single-point: height 1, fall 0.25, cells 400, occupied 100, soil points 400, water points 0, porosity 0.4, density / 1000 1.9, M / 1e6 1.11111, c / 10 2.72166, elastic 1, points of all sets 400
+// 2D Nor-Sand: height 1, fall 0.25, cells 400, occupied 100, soil points 400, water points 0, porosity 0.4, density / 1000 1.5, M / 1e6 10.3333, c / 10 8.29993, elastic 0, points of all sets 400
+// 3D dry: height 1, fall 0.375, cells 8000, occupied 1000, soil points 8000, water points 0, porosity 0.4, density / 1000 1.5, M / 1e6 1.11111, c / 10 2.72166, elastic 1, points of all sets 8000
+// 3D submerged: height 1, fall 0.46875, cells 8000, occupied 1500, soil points 8000, water points 12000, porosity 0.4, density / 1000 1.9, M / 1e6 1.11111, c / 10 2.72166, elastic 1, points of all sets 20000
+// 3D single-point: height 1, fall 0.375, cells 8000, occupied 1000, soil points 8000, water points 0, porosity 0.4, density / 1000 1.9, M / 1e6 1.11111, c / 10 2.72166, elastic 1, points of all sets 8000
+// 3D Nor-Sand: height 1, fall 0.375, cells 8000, occupied 1000, soil points 8000, water points 0, porosity 0.4, density / 1000 1.5, M / 1e6 10.3333, c / 10 8.29993, elastic 0, points of all sets 8000

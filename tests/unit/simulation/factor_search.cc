@@ -85,3 +85,24 @@ void run()
 
 const UnitTest registered("factor_search", run);
 } // namespace test_factor_search
+
+
+// clang-format off
+// Output:
+// factor of safety 1.374: 0.5 1 1.3 1.69 1.495 1.3975 1.34875 1.37312 1.38531 1.37922 -> between 1.37312 and 1.37922
+// factor of safety 0.73: 0.5 1 0.75 0.625 0.6875 0.71875 0.734375 0.726562 -> between 0.726562 and 0.734375
+// factor of safety 3.83: 0.5 1 1.3 1.69 2.197 2.8561 3.71293 4.82681 4.26987 3.9914 3.85216 3.78255 3.81736 3.83476 3.82606 -> between 3.82606 and 3.83476
+// factor of safety 7: 0.5 1 1.3 1.69 2.197 2.8561 3.71293 4.82681 5 
+//   subsection Safety, entry "Upper factor" = 5: the slope still comes to rest with its strength divided by this. Write a larger one.
+// factor of safety 1.374: 0.5 1 1.3 1.69 -> stopped
+// factor of safety 1.374: 1.2 1.5 1.35 1.425 -> between 1.35 and 1.425
+// factor of safety 1.5: 1.2 1.5 
+//   subsection Safety, entry "Upper factor" = 1.5: the slope still comes to rest with its strength divided by this. Write a larger one.
+// factor of safety 1.1: 1.2 
+//   subsection Safety, entry "Lower factor" = 1.2: the slope does not come to rest with its strength divided by this. Write a smaller one.
+// faster and faster: fails after 4.1 s
+// steady: fails after 20 s
+// steady and too slow to come far: fails after 40 s
+// slower and slower: rests after 6.1 s
+// beyond the displacement before it rests: fails after 0.6 s
+// at rest: rests after 1.1 s

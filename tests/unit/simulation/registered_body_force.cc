@@ -101,3 +101,8 @@ void run()
 
 const UnitTest registered_test("registered_body_force", run);
 } // namespace test_registered_body_force
+
+
+// Output:
+// 0 1
+// largest error 0

@@ -30,3 +30,10 @@ void run()
 
 const UnitTest registered("step_speeds", run);
 } // namespace test_step_speeds
+
+
+// Output:
+// points 3 m/s, waves 30 m/s
+// points nan m/s, waves 30 m/s
+// points nan m/s, waves 20 m/s
+// points nan m/s, waves 30 m/s

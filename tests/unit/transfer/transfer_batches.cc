@@ -349,3 +349,10 @@ void run()
 
 const UnitTest registered("transfer_batches", run);
 } // namespace test_transfer_batches
+
+
+// Output:
+// 2D, linear elastic: all transfers, bases and F-bars as point by point: OK
+// 2D, Nor-Sand: all transfers, bases and F-bars as point by point: OK
+// 3D, linear elastic: all transfers, bases and F-bars as point by point: OK
+// 3D, Nor-Sand: all transfers, bases and F-bars as point by point: OK

@@ -89,3 +89,14 @@ void run()
 
 const UnitTest registered("transfer_f_bar", run);
 } // namespace test_transfer_f_bar
+
+
+// Output:
+// 2D, 2 points: V/J_e kept 1, one J_e 1, volume kept 1, own change without stress 1
+// 3D, 2 points: V/J_e kept 1, one J_e 1, volume kept 1, own change without stress 1
+// 2D, 7 points: V/J_e kept 1, one J_e 1, volume kept 1, own change without stress 1
+// 3D, 7 points: V/J_e kept 1, one J_e 1, volume kept 1, own change without stress 1
+// 2D, 16 points: V/J_e kept 1, one J_e 1, volume kept 1, own change without stress 1
+// 3D, 16 points: V/J_e kept 1, one J_e 1, volume kept 1, own change without stress 1
+// 2D, 33 points: V/J_e kept 1, one J_e 1, volume kept 1, own change without stress 1
+// 3D, 33 points: V/J_e kept 1, one J_e 1, volume kept 1, own change without stress 1

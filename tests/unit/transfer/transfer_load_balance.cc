@@ -106,3 +106,17 @@ void run()
 
 const UnitTest registered("transfer_load_balance", run);
 } // namespace test_transfer_load_balance
+
+
+// Output of mpirun=1,2:
+// 2D spline, face at 0 of a cell: in balance
+// 2D spline, face at 0.01 of a cell: in balance
+// 2D spline, face at 0.1 of a cell: in balance
+// 2D spline, face at 0.2 of a cell: in balance
+// 2D spline, face at 0.3 of a cell: in balance
+// 2D spline, face at 0.5 of a cell: in balance
+// 2D spline, face at 0.8 of a cell: in balance
+// 2D spline, face at 0.99 of a cell: in balance
+// 3D spline, face at 0 of a cell: in balance
+// 3D spline, face at 0.01 of a cell: in balance
+// 3D spline, face at 0.5 of a cell: in balance

@@ -115,3 +115,18 @@ void run()
 
 const UnitTest registered("transfer_sums", run);
 } // namespace test_transfer_sums
+
+
+// Output of mpirun=1,2:
+// 2D spline FLIP: mass, momentum, force OK
+// 3D spline FLIP: mass, momentum, force OK
+// 2D spline TPIC: mass, momentum, force OK
+// 3D spline TPIC: mass, momentum, force OK
+// 2D spline AFLIP: mass, momentum, force OK
+// 3D spline AFLIP: mass, momentum, force OK
+// 2D linear FLIP: mass, momentum, force OK
+// 3D linear FLIP: mass, momentum, force OK
+// 2D linear TPIC: mass, momentum, force OK
+// 3D linear TPIC: mass, momentum, force OK
+// 2D linear AFLIP: mass, momentum, force OK
+// 3D linear AFLIP: mass, momentum, force OK

@@ -290,3 +290,14 @@ void run()
 
 const UnitTest registered("water_pore_velocity", run);
 } // namespace test_water_pore_velocity
+
+
+// Output of mpirun=1,2:
+// 2D FLIP: momentum OK, uniform soil OK, no soil OK
+// 2D TPIC: momentum OK, flux through a face OK, uniform soil OK, no soil OK
+// 2D AFLIP: momentum OK, uniform soil OK, no soil OK
+// 2D linear basis: momentum OK
+// 3D FLIP: momentum OK, uniform soil OK, no soil OK
+// 3D TPIC: momentum OK, flux through a face OK, uniform soil OK, no soil OK
+// 3D AFLIP: momentum OK, uniform soil OK, no soil OK
+// 3D linear basis: momentum OK
