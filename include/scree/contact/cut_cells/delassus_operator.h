@@ -2,7 +2,7 @@
 #ifndef scree_contact_cut_cells_delassus_operator_h
 #define scree_contact_cut_cells_delassus_operator_h
 
-#include <scree/mesh/node_values.h>
+#include <scree/mesh/node_messages.h>
 #include <scree/momentum/two_phase_momentum.h>
 #include <scree/mesh/node_rows.h>
 
