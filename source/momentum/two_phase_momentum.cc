@@ -121,12 +121,19 @@ namespace scree
 
 
   template <int dim>
-  double TwoPhaseMomentum<dim>::pressed_mass(const PorePressure<dim> &pressure,
-                                             const unsigned int node,
-                                             const double mass) const
+  double TwoPhaseMomentum<dim>::least_inertia(const PorePressure<dim> &pressure, const unsigned int node) const
   {
-    const double least = closures::least_inertia * water_density * pressure.filled_volume(node);
-    return mass > 0. ? std::max(mass, least) : 0.;
+    return closures::least_inertia * water_density * pressure.filled_volume(node);
+  }
+
+
+  template <int dim>
+  double TwoPhaseMomentum<dim>::pressed_share(const MixtureNodes<dim> &nodes,
+                                              const PorePressure<dim> &pressure,
+                                              const unsigned int node) const
+  {
+    const double mass = nodes.soil[node][Field<dim>::mass] + nodes.water[node][Field<dim>::mass];
+    return std::max(least_inertia(pressure, node) / mass, 1.);
   }
 
 
@@ -136,8 +143,9 @@ namespace scree
                                                          const unsigned int node) const
   {
     DragBlock<dim> pair = drag_block_at(nodes, node);
-    pair.soil_mass      = pressed_mass(pressure, node, pair.soil_mass);
-    pair.water_mass     = pressed_mass(pressure, node, pair.water_mass);
+    const double share  = pressed_share(nodes, pressure, node);
+    pair.soil_mass *= share;
+    pair.water_mass *= share;
     return pair;
   }
 
@@ -172,6 +180,7 @@ namespace scree
   template <int dim>
   void TwoPhaseMomentum<dim>::find_flux_inertia(const MixtureNodes<dim> &nodes,
                                                 const NodalField<dim> &excess,
+                                                const PorePressure<dim> &pressure,
                                                 const double time_step)
   {
     for (const unsigned int node : nodes.pores.active_nodes())
@@ -187,8 +196,10 @@ namespace scree
         const double square  = inverse * inverse;
         pore[PoreField<dim>::grain_fraction] = mass > 0. ? 1. - 1. / inverse : 1.;
         pore[PoreField<dim>::coupling]       = has_both ? std::max(inertia / square - mass, 0.) : 0.;
-        pore[PoreField<dim>::drag] =
-            pore[PoreField<dim>::coupling] + (has_both ? time_step * pore[PoreField<dim>::drag] / square : 0.);
+        const double lighter                 = std::min(mass, soil[Field<dim>::mass]);
+        const double of_light                = has_both ? std::max(least_inertia(pressure, node) - lighter, 0.) : 0.;
+        pore[PoreField<dim>::drag]           = pore[PoreField<dim>::coupling] +
+                                     (has_both ? time_step * pore[PoreField<dim>::drag] / square + of_light : 0.);
         pore[PoreField<dim>::inertial_drag] *= has_both ? time_step / (square * inverse) : 0.;
         if (has_both)
           for (unsigned int c = 0; c < dim; ++c)
@@ -237,12 +248,15 @@ namespace scree
           continue;
         const PressedNode<dim> pressed{ node, 1. - nodes.pores[node][PoreField<dim>::grain_fraction], {}, 0 };
         const SoilAndWater<dim> of_phases = PressedNodes<dim>::forces(pressed, impulses[node]);
-        const auto add = [&](double *values, const Tensor<1, dim> &impulse) { // the motion is that of the pressed mass
-          if (const double mass = values[Field<dim>::mass]; mass > 0.)
-            add_to(values + Field<dim>::force, mass / pressed_mass(pressure, node, mass) / time_step * impulse);
+        const double share                = pressed_share(nodes, pressure, node);
+        const auto add                    = [&](double *values, const Tensor<1, dim> &impulse) {
+          for (unsigned int c = 0; c < dim; ++c) // The motion is that of the pressed mass.
+            values[Field<dim>::force + c] = (values[Field<dim>::force + c] + impulse[c] / time_step) / share;
         };
-        add(nodes.soil[node], of_phases.soil);
-        add(nodes.water[node], of_phases.water);
+        if (nodes.soil[node][Field<dim>::mass] > 0.)
+          add(nodes.soil[node], of_phases.soil);
+        if (nodes.water[node][Field<dim>::mass] > 0.)
+          add(nodes.water[node], of_phases.water);
       }
   }
 

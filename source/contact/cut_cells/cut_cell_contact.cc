@@ -19,7 +19,6 @@ namespace scree
                                       const std::vector<RigidSurface<dim>> &surfaces,
                                       const CutCells<dim> *cut_cells,
                                       const GroundGaps<dim> &gaps,
-                                      const double relative_tolerance,
                                       TimerOutput &timer)
       : grid(grid)
       , ground(ground)
@@ -28,14 +27,11 @@ namespace scree
             std::count_if(surfaces.begin(), surfaces.end(), [](const auto &s) { return s.obstacle != nullptr; }))
       , cut_cells(cut_cells)
       , gaps(gaps)
-      , relative_tolerance(relative_tolerance)
+      , rows(grid)
       , timer(timer)
       , any_holds_water(
             std::any_of(surfaces.begin(), surfaces.end(), [](const auto &surface) { return surface.no_slip; }))
   {
-    if (ground == nullptr)
-      return;
-    contacts.emplace(grid, *cut_cells);
     reinit();
   }
 
@@ -75,9 +71,8 @@ namespace scree
   template <int dim>
   void CutCellContact<dim>::reinit()
   {
-    if (!contacts)
+    if (ground == nullptr)
       return;
-    contacts->reinit();
     of_segments.assign(cut_cells->segments().size(), OfSegment()); // The next step begins its search from nothing.
     find_surfaces();
   }
@@ -119,67 +114,39 @@ namespace scree
 
 
   template <int dim>
-  void CutCellContact<dim>::add_contact(const unsigned int segment,
-                                        const Phase phase,
-                                        const bool is_unilateral,
-                                        const MixtureNodes<dim> &nodes,
-                                        const double time_step,
-                                        const Tensor<1, dim> &base,
-                                        const Tensor<1, dim> &first)
+  void CutCellContact<dim>::add_row(const unsigned int segment,
+                                    const Phase phase,
+                                    const bool is_unilateral,
+                                    const MixtureNodes<dim> &nodes,
+                                    const double time_step)
   {
-    const CutFacet<dim> &of_ground = cut_cells->segments()[segment];
-    GroundContact<dim> contact{};
-    contact.segment       = segment;
-    contact.phase         = phase;
-    contact.is_unilateral = is_unilateral;
+    const CutFacet<dim> &facet = cut_cells->segments()[segment];
+    const OfSegment &last      = of_segments[segment];
+    GroundRow<dim> row{};
+    row.segment       = segment;
+    row.phase         = phase;
+    row.is_unilateral = is_unilateral;
     if (phase == Phase::soil)
-      contact.friction = surface_of(segment).friction_coefficient;
+      row.friction = surface_of(segment).friction_coefficient;
     else if (std::binary_search(holding.begin(), holding.end(), segment))
-      contact.friction = std::numeric_limits<double>::infinity();
-    contact.area   = of_ground.area;
-    contact.normal = of_ground.normal;
-    contact.speed =
-        mean_velocity(of_ground, phase == Phase::soil ? nodes.soil : nodes.water) - cut_cells->velocity(of_ground);
-    if (const double allowed = gaps.allowed_approach(segment, contact.speed * contact.normal, time_step); allowed > 0.)
-      {
-        contact.speed -= allowed * contact.normal;
-        if (contact.speed * contact.normal <= 0.)
-          return; // The gap does not close in this step.
-      }
-    // What neither presses nor comes near is left alone.
-    if (is_unilateral && contact.speed * contact.normal <= 0. && !(base * contact.normal > 0.))
-      return;
-    contact.base    = base;
-    contact.impulse = contact.part(contact.holds(), first);
-    contacts->add(contact);
+      row.friction = std::numeric_limits<double>::infinity();
+    row.area   = facet.area;
+    row.normal = facet.normal;
+    const Tensor<1, dim> velocity =
+        mean_velocity(facet, phase == Phase::soil ? nodes.soil : nodes.water) - cut_cells->velocity(facet);
+    const double allowed = gaps.allowed_approach(segment, velocity * row.normal, time_step);
+    row.flow             = row.area * (velocity - allowed * row.normal);
+    row.traction         = phase == Phase::soil ? last.soil_traction : last.water_traction;
+    rows.add(row, facet, nodes);
   }
 
-
-  template <int dim>
-  void CutCellContact<dim>::project(const MixtureNodes<dim> &nodes,
-                                    const TwoPhaseMomentum<dim> &step,
-                                    const double wanted,
-                                    Budget<dim> &balance)
-  {
-    largest_flow = std::max(largest_flow, contacts->flow());
-    if (largest_flow == 0.)
-      return;
-    contacts->find(nodes, step, wanted * largest_flow);
-    for (const GroundContact<dim> &contact : contacts->contacts())
-      {
-        OfSegment &taken = of_segments[contact.segment];
-        (contact.phase == Phase::soil ? taken.soil : taken.water) += contact.impulse;
-      }
-    contacts->take(nodes, step, balance);
-  }
 
   template <int dim>
   void CutCellContact<dim>::begin_step(const Mixture<dim> &mixture, const FreeSurface<dim> &surface)
   {
-    if (!contacts)
+    if (ground == nullptr)
       return;
     const TimedPart part(timer, TimerSection::bed);
-    contacts->begin_step();
     for (OfSegment &segment : of_segments)
       segment.soil = segment.water = Tensor<1, dim>();
     if (!any_holds_water)
@@ -236,68 +203,42 @@ namespace scree
 
 
   template <int dim>
-  void CutCellContact<dim>::predict(const MixtureNodes<dim> &nodes,
-                                    const Mixture<dim> &mixture,
-                                    const TwoPhaseMomentum<dim> &step,
-                                    const double time_step,
-                                    Budget<dim> &balance)
+  GroundRows<dim> *CutCellContact<dim>::find_rows(const MixtureNodes<dim> &nodes,
+                                                  const Mixture<dim> &mixture,
+                                                  const FreeSurface<dim> &surface,
+                                                  const double time_step)
   {
-    if (!contacts)
-      return;
+    if (ground == nullptr)
+      return nullptr;
     const TimedPart part(timer, TimerSection::bed);
-    contacts->clear();
-    largest_flow = 0.;
+    rows.clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
-      if (cell.soil_mass > 0. && !cell.is_rigid)
-        for_segments(cell.cell, [&](const unsigned int segment) {
-          const Tensor<1, dim> nothing, first = time_step * of_segments[segment].predicted_soil;
-          add_contact(segment, Phase::soil, !is_fixed(segment), nodes, time_step, nothing, first);
-        });
-    project(nodes, step, relative_tolerance, balance);
-    for (OfSegment &segment : of_segments)
-      segment.predicted_soil = segment.soil / time_step;
-    nodes.update_velocity_ghosts();
+      for_segments(cell.cell, [&](const unsigned int segment) {
+        if (cell.soil_mass > 0. && !cell.is_rigid)
+          add_row(segment, Phase::soil, !is_fixed(segment), nodes, time_step);
+        const bool holds = std::binary_search(holding.begin(), holding.end(), segment);
+        if (cell.water_volume > 0. && (holds || !surface.has_unknown(cell.cell)))
+          add_row(segment, Phase::water, !surface.has_unknown(cell.cell), nodes, time_step);
+      });
+    return &rows;
   }
 
 
   template <int dim>
-  void CutCellContact<dim>::correct(const MixtureNodes<dim> &nodes,
-                                    const Mixture<dim> &mixture,
-                                    const TwoPhaseMomentum<dim> &step,
-                                    const FreeSurface<dim> &surface,
-                                    const double time_step,
-                                    Budget<dim> &balance)
+  void CutCellContact<dim>::count_rows(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &balance)
   {
-    if (!contacts)
+    if (ground == nullptr)
       return;
     const TimedPart part(timer, TimerSection::bed);
-    contacts->clear();
-    for (const MixtureCell<dim> &cell : mixture.cells())
-      for_segments(cell.cell, [&](const unsigned int segment) {
-        const OfSegment &known = of_segments[segment];
-        if (cell.soil_mass > 0. && !cell.is_rigid)
-          add_contact(
-              segment, Phase::soil, !is_fixed(segment), nodes, time_step, known.soil, time_step * known.corrected_soil);
-        const bool holds = std::binary_search(holding.begin(), holding.end(), segment);
-        if (cell.water_volume > 0. && (holds || !surface.has_unknown(cell.cell)))
-          add_contact(segment,
-                      Phase::water,
-                      !surface.has_unknown(cell.cell),
-                      nodes,
-                      time_step,
-                      Tensor<1, dim>(),
-                      time_step * known.corrected_water);
-      });
     for (OfSegment &segment : of_segments)
-      segment.corrected_soil = segment.corrected_water = Tensor<1, dim>();
-    constexpr double coarser = 10.; // suffices: the next predictor removes the remainder
-    project(nodes, step, coarser * relative_tolerance, balance);
-    for (const GroundContact<dim> &contact : contacts->contacts())
+      segment.soil_traction = segment.water_traction = Tensor<1, dim>();
+    for (const GroundRow<dim> &row : rows.all)
       {
-        OfSegment &found                                                              = of_segments[contact.segment];
-        (contact.phase == Phase::soil ? found.corrected_soil : found.corrected_water) = contact.impulse / time_step;
+        OfSegment &segment                                                          = of_segments[row.segment];
+        (row.phase == Phase::soil ? segment.soil_traction : segment.water_traction) = row.traction;
+        (row.phase == Phase::soil ? segment.soil : segment.water) += time_step * row.area * row.traction;
+        balance.pressure_impulse += time_step * row.area * row.traction; // which the corrector has booked there
       }
-    nodes.update_velocity_ghosts();
     count(nodes, balance);
   }
 
@@ -361,7 +302,7 @@ namespace scree
                                            const double time_step,
                                            Budget<dim> &balance) const
   {
-    if (!contacts || n_obstacles == 0)
+    if (ground == nullptr || n_obstacles == 0)
       return;
     const TimedPart part(timer, TimerSection::bed);
     for (const MixtureCell<dim> &cell : mixture.cells())
@@ -388,7 +329,7 @@ namespace scree
                                                 const double farthest,
                                                 const std::uint8_t closed_faces) const
   {
-    if (!contacts)
+    if (ground == nullptr)
       return;
     const TimedPart part(timer, TimerSection::bed);
     move_out_of_ground(grid, *ground, farthest, closed_faces, points);
