@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/pressure/ground_rows.h>
+#include <scree/tensor/vector.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace scree
 {
@@ -16,16 +20,25 @@ namespace scree
 
 
   template <int dim>
-  void GroundRows<dim>::add(const GroundRow<dim> &row, const CutFacet<dim> &facet, const MixtureNodes<dim> &nodes)
+  void GroundRows<dim>::add(const GroundRow<dim> &row,
+                            const CutFacet<dim> &facet,
+                            const Tensor<1, dim> &admissible,
+                            const double least_mass,
+                            const MixtureNodes<dim> &nodes)
   {
+    const NodalField<dim> &field = row.phase == Phase::soil ? nodes.soil : nodes.water;
     all.push_back(row);
+    all.back().flow = Tensor<1, dim>();
     facets.push_back(&facet);
     for (unsigned int i = 0; i < facet.shapes.size(); ++i)
       {
-        const double porosity = 1. - nodes.pores[grid.nodes(facet.cell)[i]][PoreField<dim>::grain_fraction];
-        const bool acts       = row.phase == Phase::soil || porosity > 0.;
-        of_flow.push_back(acts ? row.area * facet.shapes[i] : 0.);
+        const unsigned int node = grid.nodes(facet.cell)[i];
+        const double porosity   = 1. - nodes.pores[node][PoreField<dim>::grain_fraction];
+        const double mass       = field[node][NodalField<dim>::mass];
+        const bool acts         = row.phase == Phase::soil || porosity > 0.;
+        of_flow.push_back(acts ? row.area * std::min(facet.shapes[i], mass / least_mass) : 0.);
         of_discharge.push_back(of_flow.back() * (row.phase == Phase::soil ? -1. : acts ? 1. / porosity - 1. : 0.));
+        all.back().flow += of_flow.back() * (vector_of<dim>(field[node] + NodalField<dim>::velocity) - admissible);
       }
   }
 
@@ -50,9 +63,10 @@ namespace scree
   template <int dim>
   void GroundRows<dim>::add_unit_forces(FlowField<dim> &forces) const
   {
-    for (unsigned int k = 0; k < all.size(); ++k)
-      for (unsigned int i = 0; i < facets[k]->shapes.size(); ++i)
-        forces[grid.nodes(facets[k]->cell)[i]][unsigned(all[k].phase)] += all[k].area * facets[k]->shapes[i];
+    const unsigned int n_nodes = grid.n_nodes_per_cell();
+    for (unsigned int k = 0, first = 0; k < all.size(); ++k, first += n_nodes)
+      for (unsigned int i = 0; i < n_nodes; ++i)
+        forces[grid.nodes(facets[k]->cell)[i]][unsigned(all[k].phase)] += of_flow[first + i];
   }
 
 
@@ -75,14 +89,12 @@ namespace scree
   template <int dim>
   void GroundRows<dim>::find_sums(const FlowField<dim> &values, const int power, std::vector<double> &result) const
   {
+    const unsigned int n_nodes = grid.n_nodes_per_cell();
     result.assign(all.size(), 0.);
-    for (unsigned int k = 0; k < all.size(); ++k)
-      for (unsigned int i = 0; i < facets[k]->shapes.size(); ++i)
-        {
-          const double shape = all[k].area * facets[k]->shapes[i];
-          result[k] +=
-              (power == 1 ? shape : shape * shape) * values[grid.nodes(facets[k]->cell)[i]][unsigned(all[k].phase)];
-        }
+    for (unsigned int k = 0, first = 0; k < all.size(); ++k, first += n_nodes)
+      for (unsigned int i = 0; i < n_nodes; ++i)
+        result[k] +=
+            std::pow(of_flow[first + i], power) * values[grid.nodes(facets[k]->cell)[i]][unsigned(all[k].phase)];
   }
 
   template class GroundRows<2>;

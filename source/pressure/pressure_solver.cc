@@ -105,7 +105,12 @@ namespace scree
                                                 : 0.;
     constexpr double regularisation = 1e-7; // the rows of small facets nearly depend on those beside them
     for (unsigned int k = 0; k < target.of_rows.size(); ++k)
-      target.of_rows[k] += regularisation * diagonal_of_row[k] * source.of_rows[k];
+      {
+        const GroundRow<dim> &row = (*rows)[k];
+        target.of_rows[k] += regularisation * diagonal_of_row[k] * source.of_rows[k];
+        if (row.held == HeldMotion::all)
+          target.of_rows[k] += row.compliance * row.along(source.of_rows[k]);
+      }
   }
 
 
@@ -148,7 +153,13 @@ namespace scree
         for (unsigned int i = 0; i < n_owned; ++i)
           preconditioned.of_vertices.local_element(i) *= scale_of_number[i];
         for (unsigned int k = 0; k < n_rows; ++k)
-          preconditioned.of_rows[k] = remainder.of_rows[k] / diagonal_of_row[k];
+          {
+            const GroundRow<dim> &row  = (*rows)[k];
+            const Tensor<1, dim> &flow = remainder.of_rows[k];
+            const Tensor<1, dim> along = row.along(flow);
+            preconditioned.of_rows[k] =
+                (flow - along) / diagonal_of_row[k] + along / (diagonal_of_row[k] + row.compliance);
+          }
         vmult(product, preconditioned);
         keep_held_motion(product.of_rows);
 
@@ -280,8 +291,8 @@ namespace scree
           row.held = HeldMotion::across;
         else
           row.held = HeldMotion::none;
-        if (row.is_unilateral && pressing <= 0.)
-          row.traction = Tensor<1, dim>();
+        if (row.is_unilateral && (pressing <= 0. || row.friction == 0.))
+          row.traction = std::max(pressing, 0.) * row.normal;
         source.of_rows[k]   = row.flow;
         solution.of_rows[k] = row.traction;
       }
@@ -310,7 +321,7 @@ namespace scree
 
 
   template <int dim>
-  double PressureSolver<dim>::choose_rows()
+  double PressureSolver<dim>::choose_rows(const bool releases)
   {
     double change = 0.;
     for (unsigned int k = 0; k < source.of_rows.size(); ++k)
@@ -325,11 +336,12 @@ namespace scree
             row.held = HeldMotion::across;
             change += inflow * inflow;
           }
-        else if (row.held == HeldMotion::across && pressing <= 0.)
+        else if (releases && row.held != HeldMotion::none && pressing <= 0.)
           {
             change += (diagonal_of_row[k] * traction).norm_square();
-            row.held = HeldMotion::none;
-            traction = Tensor<1, dim>();
+            row.held       = HeldMotion::none;
+            row.compliance = 0.;
+            traction       = Tensor<1, dim>();
           }
       }
     return change;
@@ -337,22 +349,25 @@ namespace scree
 
 
   template <int dim>
-  double PressureSolver<dim>::rub()
+  double PressureSolver<dim>::choose_friction()
   {
     double change = 0.;
-    find_residual();
     for (unsigned int k = 0; k < source.of_rows.size(); ++k)
       {
-        const GroundRow<dim> &row = (*rows)[k];
-        if (!row.is_unilateral || row.friction == 0.)
+        GroundRow<dim> &row = (*rows)[k];
+        if (!row.is_unilateral || row.friction == 0. || row.held == HeldMotion::none ||
+            solution.of_rows[k] * row.normal <= 0.)
           continue;
-        Tensor<1, dim> &traction    = solution.of_rows[k];
-        const Tensor<1, dim> before = traction;
-        const double pressing = std::max(traction * row.normal, 0.), available = row.friction * pressing;
-        const Tensor<1, dim> along = row.along(traction) + row.along(residual.of_rows[k]) / sum_of_row[k];
-        const double size          = along.norm();
-        traction                   = pressing * row.normal + (size > available ? available / size : 1.) * along;
-        change += (sum_of_row[k] * (traction - before)).norm_square();
+        const Tensor<1, dim> &traction = solution.of_rows[k];
+        const Tensor<1, dim> along     = row.along(traction),
+                             slip      = row.along(residual.of_rows[k]) + row.compliance * along;
+        const double available         = row.friction * (traction * row.normal);
+        const double needed            = (along + slip / sum_of_row[k]).norm();
+        const double before            = row.compliance;
+        row.compliance                 = needed > available ? sum_of_row[k] * (needed / available - 1.) : 0.;
+        change += row.held == HeldMotion::all ? std::pow(row.compliance - before, 2) * along.norm_square()
+                                              : slip.norm_square();
+        row.held = HeldMotion::all;
       }
     return change;
   }
@@ -362,9 +377,10 @@ namespace scree
   typename PressureSolver<dim>::Result
   PressureSolver<dim>::solve(const Task &task, VertexVector &change, GroundRows<dim> *ground)
   {
-    constexpr unsigned int most_sweeps = 5;   // What changes after them is held without another solve.
-    constexpr double coarser           = 10.; // friction that changes by less has been found
-    rows                               = ground ? &ground->all : nullptr;
+    constexpr unsigned int most_sweeps   = 5;   // What changes after them is held without another solve.
+    constexpr unsigned int most_releases = 3;   // Then rows are only added, so that the search ends.
+    constexpr double coarser             = 10.; // friction that changes by less has been found
+    rows                                 = ground ? &ground->all : nullptr;
     for (Joint *vector : { &source, &solution, &scratch })
       vector->of_rows.assign(rows ? rows->size() : 0, Tensor<1, dim>());
     take(task.pressure, solution.of_vertices);
@@ -384,27 +400,30 @@ namespace scree
                                               rows->end(),
                                               [](const auto &row) { return row.is_unilateral && row.friction > 0.; }),
                                   grid.communicator());
-    constexpr unsigned int most_passes = 2, n_rubs = 3; // between pressure and friction
-    for (unsigned int pass = 0; pass < (rubs ? most_passes : 1); ++pass)
+    constexpr unsigned int most_passes = 4; // between pressure and friction
+    if (rubs)
       {
-        double found = 0.;
+        find_residual();
+        choose_friction();
+      }
+    for (unsigned int pass = 1;; ++pass)
+      {
         for (unsigned int sweep = 0;; ++sweep)
           {
-            converge(pass == 0 && sweep == 0 ? result.first : result.further);
+            converge(pass == 1 && sweep == 0 ? result.first : result.further);
             const bool is_last = sweep == most_sweeps;
-            found              = 0.;
+            double found       = 0.;
             if (rows || sweep > 0)
               find_residual();
             if (task.has_pressure)
               found += choose_vertices(task, is_last);
-            if (rows)
-              found += choose_rows();
+            if (rows && !is_last)
+              found += choose_rows(sweep < most_releases);
             if (is_last || Utilities::MPI::sum(found, grid.communicator()) <= tolerance * tolerance)
               break;
           }
-        for (unsigned int i = 0; rubs && i < n_rubs; ++i)
-          found = rub();
-        if (rubs && Utilities::MPI::sum(found, grid.communicator()) <= std::pow(coarser * tolerance, 2))
+        if (!rubs || pass == most_passes ||
+            Utilities::MPI::sum(choose_friction(), grid.communicator()) <= std::pow(coarser * tolerance, 2))
           break;
       }
     if (task.has_pressure)

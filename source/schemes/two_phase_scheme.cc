@@ -292,6 +292,20 @@ namespace scree
 
 
   template <int dim>
+  std::vector<FacetTractions<dim>> TwoPhaseScheme<dim>::ground_tractions() const
+  {
+    return contact.tractions();
+  }
+
+
+  template <int dim>
+  void TwoPhaseScheme<dim>::set_ground_tractions(const std::vector<FacetTractions<dim>> &tractions)
+  {
+    contact.set_tractions(tractions);
+  }
+
+
+  template <int dim>
   NodalForces TwoPhaseScheme<dim>::nodal_forces(const double time_step) const
   {
     NodalForces sums;

@@ -17,12 +17,28 @@ namespace scree
     water
   };
 
+  /// What soil and water give to the ground in a cell.
+  template <int dim>
+  struct FacetTractions
+  {
+    std::uint64_t cell = 0;             ///< FineCells::Cell::number
+    unsigned int part  = 0;             ///< of RigidBoundary
+    dealii::Tensor<1, dim> soil, water; ///< Pa, out of the open
+
+    /// For the state of a run.
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &cell &part &soil &water;
+    }
+  };
+
   /// What of the motion at a row the ground constrains.
   enum class HeldMotion : unsigned int
   {
     none,   ///< nothing, as it lifts off
-    across, ///< that into it; friction is in the tractions
-    all     ///< all
+    across, ///< that into it
+    all     ///< all; along it as far as the compliance of its friction lets it
   };
 
   /// Soil or water at a facet of rigid ground: its mean velocity there must not go into the ground, and by Coulomb's
@@ -38,7 +54,8 @@ namespace scree
     dealii::Tensor<1, dim> normal;   ///< unit, out of the open
     dealii::Tensor<1, dim> flow;     ///< m^dim/s: area times the velocity beside what is admissible, without tractions
     dealii::Tensor<1, dim> traction; ///< on the ground, Pa; holds the initial guess before the solve
-    HeldMotion held = HeldMotion::none; ///< in the current solve
+    HeldMotion held   = HeldMotion::none; ///< in the current solve
+    double compliance = 0.;               ///< flow along the ground over the traction along it, m^dim/(Pa s); 0: sticks
 
     /// The part of a vector that the ground holds.
     dealii::Tensor<1, dim> held_part(const dealii::Tensor<1, dim> &vector) const
@@ -72,9 +89,16 @@ namespace scree
     /// Drops all rows.
     void clear();
 
-    /// Adds a row at a facet whose shape functions must live on.
-    /// @param nodes whose ghosts hold the fraction of grains
-    void add(const GroundRow<dim> &row, const CutFacet<dim> &facet, const MixtureNodes<dim> &nodes);
+    /// Adds a row at a facet, whose shape functions are limited by the mass of the phase at a node: where that is
+    /// light, it hardly counts. Finds the flow.
+    /// @param admissible velocity, m/s
+    /// @param least_mass at which a node counts wholly, kg
+    /// @param nodes whose ghosts hold values
+    void add(const GroundRow<dim> &row,
+             const CutFacet<dim> &facet,
+             const dealii::Tensor<1, dim> &admissible,
+             const double least_mass,
+             const MixtureNodes<dim> &nodes);
 
     /// Adds the forces of the ground under tractions, Pa, to those on u and q, N: this rank's part of -N^T t.
     void add_forces(const Vectors &tractions, FlowField<dim> &forces) const;

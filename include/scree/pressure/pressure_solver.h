@@ -138,11 +138,12 @@ namespace scree
     double choose_vertices(const Task &task, const bool is_last);
 
     /// Chooses anew which rows press; the same.
-    double choose_rows();
+    /// @param releases rows that pull; else they are only added
+    double choose_rows(const bool releases);
 
-    /// Changes the friction at the rows by what is left of their motion along the ground, at most to what Coulomb's law
-    /// allows: a projected Jacobi sweep with sums of rows. The square of the flow by which that changed on this rank.
-    double rub();
+    /// Chooses the compliances of the rows along the ground anew, so that friction is what Coulomb's law allows; the
+    /// square of the flow by which that changed on this rank.
+    double choose_friction();
 
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &vertices;

@@ -3,6 +3,7 @@
 #define scree_schemes_scheme_h
 
 #include <scree/momentum/nodal_forces.h>
+#include <scree/pressure/ground_rows.h>
 #include <scree/step/step_report.h>
 #include <scree/transfer/water_transfer.h>
 
@@ -49,6 +50,17 @@ namespace scree
 
     /// Keeps place and pressure of the water from the next step on, or lets it flow.
     virtual void hold_water(const bool)
+    {
+    }
+
+    /// Tractions of the ground on all ranks, which the next step begins with beside the points. Collective.
+    virtual std::vector<FacetTractions<dim>> ground_tractions() const
+    {
+      return {};
+    }
+
+    /// Sets those of this rank, after reinit().
+    virtual void set_ground_tractions(const std::vector<FacetTractions<dim>> &)
     {
     }
 

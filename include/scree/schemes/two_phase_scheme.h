@@ -38,6 +38,8 @@ namespace scree
     void solve(const double time_step, StepReport<dim> &report) override;
     void to_points(const double time_step, StepReport<dim> &report) override;
     void hold_water(const bool holds) override;
+    std::vector<FacetTractions<dim>> ground_tractions() const override;
+    void set_ground_tractions(const std::vector<FacetTractions<dim>> &tractions) override;
     NodalForces nodal_forces(const double time_step) const override;
     std::vector<PointSet<dim> *> point_sets() override;
     const NodalField<dim> &soil_field() override;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace scree
 {
@@ -73,7 +74,23 @@ namespace scree
   {
     if (ground == nullptr)
       return;
-    of_segments.assign(cut_cells->segments().size(), OfSegment()); // The next step begins its search from nothing.
+    const std::vector<FacetTractions<dim>> before = tractions();
+    make_segments();
+    set_tractions(before);
+  }
+
+
+  template <int dim>
+  void CutCellContact<dim>::make_segments()
+  {
+    const auto &segments = cut_cells->segments();
+    of_segments.assign(segments.size(), OfSegment());
+    const FineCells<dim> &cells = grid.fine_cells();
+    for (unsigned int s = 0; s < segments.size(); ++s)
+      {
+        of_segments[s].tractions.cell = cells.cells()[cells.of_index(segments[s].cell)].number;
+        of_segments[s].tractions.part = segments[s].part;
+      }
     find_surfaces();
   }
 
@@ -81,13 +98,39 @@ namespace scree
   template <int dim>
   void CutCellContact<dim>::follow()
   {
+    const std::vector<OfSegment> before = std::move(of_segments);
+    make_segments();
     const std::vector<unsigned int> &numbers = cut_cells->numbers_before();
-    std::vector<OfSegment> now(numbers.size());
     for (unsigned int s = 0; s < numbers.size(); ++s)
       if (numbers[s] != cut_cells->none)
-        now[s] = of_segments[numbers[s]];
-    of_segments = std::move(now);
-    find_surfaces();
+        of_segments[s] = before[numbers[s]];
+  }
+
+
+  template <int dim>
+  std::vector<FacetTractions<dim>> CutCellContact<dim>::tractions() const
+  {
+    if (ground == nullptr)
+      return {};
+    std::vector<FacetTractions<dim>> own, result;
+    for (const OfSegment &segment : of_segments)
+      if (segment.tractions.soil.norm_square() + segment.tractions.water.norm_square() > 0.)
+        own.push_back(segment.tractions);
+    for (const auto &of_rank : Utilities::MPI::all_gather(grid.communicator(), own))
+      result.insert(result.end(), of_rank.begin(), of_rank.end());
+    return result;
+  }
+
+
+  template <int dim>
+  void CutCellContact<dim>::set_tractions(const std::vector<FacetTractions<dim>> &all)
+  {
+    std::map<std::pair<std::uint64_t, unsigned int>, const FacetTractions<dim> *> by_place;
+    for (const FacetTractions<dim> &one : all)
+      by_place[{ one.cell, one.part }] = &one;
+    for (OfSegment &segment : of_segments)
+      if (const auto found = by_place.find({ segment.tractions.cell, segment.tractions.part }); found != by_place.end())
+        segment.tractions = *found->second;
   }
 
 
@@ -117,6 +160,7 @@ namespace scree
   void CutCellContact<dim>::add_row(const unsigned int segment,
                                     const Phase phase,
                                     const bool is_unilateral,
+                                    const double mass_of_cell,
                                     const MixtureNodes<dim> &nodes,
                                     const double time_step)
   {
@@ -130,14 +174,14 @@ namespace scree
       row.friction = surface_of(segment).friction_coefficient;
     else if (std::binary_search(holding.begin(), holding.end(), segment))
       row.friction = std::numeric_limits<double>::infinity();
-    row.area   = facet.area;
-    row.normal = facet.normal;
-    const Tensor<1, dim> velocity =
-        mean_velocity(facet, phase == Phase::soil ? nodes.soil : nodes.water) - cut_cells->velocity(facet);
-    const double allowed = gaps.allowed_approach(segment, velocity * row.normal, time_step);
-    row.flow             = row.area * (velocity - allowed * row.normal);
-    row.traction         = phase == Phase::soil ? last.soil_traction : last.water_traction;
-    rows.add(row, facet, nodes);
+    row.area                       = facet.area;
+    row.normal                     = facet.normal;
+    const Tensor<1, dim> of_ground = cut_cells->velocity(facet);
+    const double approach =
+        (mean_velocity(facet, phase == Phase::soil ? nodes.soil : nodes.water) - of_ground) * row.normal;
+    const Tensor<1, dim> admissible = of_ground + gaps.allowed_approach(segment, approach, time_step) * row.normal;
+    row.traction                    = phase == Phase::soil ? last.tractions.soil : last.tractions.water;
+    rows.add(row, facet, admissible, closures::least_inertia * mass_of_cell, nodes);
   }
 
 
@@ -215,10 +259,10 @@ namespace scree
     for (const MixtureCell<dim> &cell : mixture.cells())
       for_segments(cell.cell, [&](const unsigned int segment) {
         if (cell.soil_mass > 0. && !cell.is_rigid)
-          add_row(segment, Phase::soil, !is_fixed(segment), nodes, time_step);
+          add_row(segment, Phase::soil, !is_fixed(segment), cell.soil_mass, nodes, time_step);
         const bool holds = std::binary_search(holding.begin(), holding.end(), segment);
         if (cell.water_volume > 0. && (holds || !surface.has_unknown(cell.cell)))
-          add_row(segment, Phase::water, !surface.has_unknown(cell.cell), nodes, time_step);
+          add_row(segment, Phase::water, !surface.has_unknown(cell.cell), cell.water_mass, nodes, time_step);
       });
     return &rows;
   }
@@ -231,11 +275,11 @@ namespace scree
       return;
     const TimedPart part(timer, TimerSection::bed);
     for (OfSegment &segment : of_segments)
-      segment.soil_traction = segment.water_traction = Tensor<1, dim>();
+      segment.tractions.soil = segment.tractions.water = Tensor<1, dim>();
     for (const GroundRow<dim> &row : rows.all)
       {
-        OfSegment &segment                                                          = of_segments[row.segment];
-        (row.phase == Phase::soil ? segment.soil_traction : segment.water_traction) = row.traction;
+        OfSegment &segment                                                            = of_segments[row.segment];
+        (row.phase == Phase::soil ? segment.tractions.soil : segment.tractions.water) = row.traction;
         (row.phase == Phase::soil ? segment.soil : segment.water) += time_step * row.area * row.traction;
         balance.pressure_impulse += time_step * row.area * row.traction; // which the corrector has booked there
       }

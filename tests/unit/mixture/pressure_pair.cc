@@ -110,7 +110,11 @@ public:
             drag_mobility(n < 1. ? 1.5 + kind : 0., n > 0. ? 1. + pattern(2. * x) / 2. : 0., 10.);
         nodes.all.push_back({ node, n, mobility, PressedNode<dim>::free });
         pores[node][PoreField<dim>::grain_fraction] = 1. - n;
+        for (NodalField<dim> *field : { &soil_field, &water_field })
+          (*field)[node][NodalField<dim>::mass] = 1.;
       }
+    for (NodalField<dim> *field : { &soil_field, &water_field })
+      field->update_ghosts();
     pores.update_ghosts();
     add_rows();
     schur.assemble(mixture, nodes, &rows, time_step);
@@ -136,7 +140,7 @@ public:
             row.phase  = phase;
             row.area   = 0.1 + 0.05 * pattern(x);
             row.normal = facet.normal;
-            rows.add(row, facets.back(), { soil_field, water_field, pores });
+            rows.add(row, facets.back(), Tensor<1, dim>(), 0.5, { soil_field, water_field, pores });
           }
       }
   }

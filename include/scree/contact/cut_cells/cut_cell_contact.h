@@ -34,7 +34,7 @@ namespace scree
                    const GroundGaps<dim> &gaps,
                    dealii::TimerOutput &timer);
 
-    /// Fits the nodes to the grid's current partition, after the cells have been looked at. Collective.
+    /// Fits the facets to the grid's current partition, after the cells have been looked at. Collective.
     void reinit();
 
     /// Fits it to the ground, after the cells have followed that.
@@ -84,13 +84,21 @@ namespace scree
     /// @param closed_faces of the box, to the points: none is put through them
     void project_to_boundary(PointSet<dim> &points, const double farthest, const std::uint8_t closed_faces) const;
 
+    /// Tractions of the last step at the facets of all ranks, with the places of their cells. Collective.
+    std::vector<FacetTractions<dim>> tractions() const;
+
+    /// Sets those of this rank's facets from them.
+    void set_tractions(const std::vector<FacetTractions<dim>> &all);
+
   private:
     /// Of a segment.
     struct OfSegment
     {
-      dealii::Tensor<1, dim> soil, water;                   // N s, out of the open: impulses of this step
-      dealii::Tensor<1, dim> soil_traction, water_traction; // Pa, of the last solve, with which the next one begins
+      dealii::Tensor<1, dim> soil, water; // N s, out of the open: impulses of this step
+      FacetTractions<dim> tractions;      // of the last solve, with which the next one begins
     };
+
+    void make_segments();
 
     /// Adds the step's impulses and their work; ghosts of `nodes` hold values.
     void count(const MixtureNodes<dim> &nodes, Budget<dim> &balance) const;
@@ -107,6 +115,7 @@ namespace scree
     void add_row(const unsigned int segment,
                  const Phase phase,
                  const bool is_unilateral,
+                 const double mass_of_cell,
                  const MixtureNodes<dim> &nodes,
                  const double time_step);
 
