@@ -128,24 +128,11 @@ namespace scree
 
 
   template <int dim>
-  double TwoPhaseMomentum<dim>::pressed_share(const MixtureNodes<dim> &nodes,
-                                              const PorePressure<dim> &pressure,
-                                              const unsigned int node) const
-  {
-    const double mass = nodes.soil[node][Field<dim>::mass] + nodes.water[node][Field<dim>::mass];
-    return std::max(least_inertia(pressure, node) / mass, 1.);
-  }
-
-
-  template <int dim>
-  DragBlock<dim> TwoPhaseMomentum<dim>::pressed_block_at(const MixtureNodes<dim> &nodes,
-                                                         const PorePressure<dim> &pressure,
-                                                         const unsigned int node) const
+  DragBlock<dim> TwoPhaseMomentum<dim>::pressed_block_at(const MixtureNodes<dim> &nodes, const unsigned int node) const
   {
     DragBlock<dim> pair = drag_block_at(nodes, node);
-    const double share  = pressed_share(nodes, pressure, node);
-    pair.soil_mass *= share;
-    pair.water_mass *= share;
+    pair.soil_mass *= nodes.pores[node][PoreField<dim>::pressed_share];
+    pair.water_mass *= nodes.pores[node][PoreField<dim>::pressed_share];
     return pair;
   }
 
@@ -223,7 +210,7 @@ namespace scree
       {
         if (is_empty(nodes, node))
           continue;
-        const DragBlock<dim> pair = pressed_block_at(nodes, pressure, node);
+        const DragBlock<dim> pair = pressed_block_at(nodes, node);
         pressed.all.push_back({ node,
                                 1. - nodes.pores[node][PoreField<dim>::grain_fraction],
                                 drag_mobility(pair.soil_mass, pair.water_mass, pair.drag),
@@ -248,8 +235,10 @@ namespace scree
           continue;
         const PressedNode<dim> pressed{ node, 1. - nodes.pores[node][PoreField<dim>::grain_fraction], {}, 0 };
         const SoilAndWater<dim> of_phases = PressedNodes<dim>::forces(pressed, impulses[node]);
-        const double share                = pressed_share(nodes, pressure, node);
-        const auto add                    = [&](double *values, const Tensor<1, dim> &impulse) {
+        const double mass                 = nodes.soil[node][Field<dim>::mass] + nodes.water[node][Field<dim>::mass];
+        const double share                = nodes.pores[node][PoreField<dim>::pressed_share] =
+            std::max(least_inertia(pressure, node) / mass, 1.);
+        const auto add = [&](double *values, const Tensor<1, dim> &impulse) {
           for (unsigned int c = 0; c < dim; ++c) // The motion is that of the pressed mass.
             values[Field<dim>::force + c] = (values[Field<dim>::force + c] + impulse[c] / time_step) / share;
         };
@@ -423,7 +412,7 @@ namespace scree
         const unsigned int node = pressed.node;
         double *of_soil = nodes.soil[node], *of_water = nodes.water[node];
         const SoilAndWater<dim> impulses = PressedNodes<dim>::forces(pressed, of_flow[node]);
-        const DragBlock<dim> pair        = pressed_block_at(nodes, pressure, node);
+        const DragBlock<dim> pair        = pressed_block_at(nodes, node);
         SoilAndWater<dim> change         = pair.solve(impulses);
         const SoilAndWater<dim> before{ velocity_at_start<dim>(of_soil), velocity_at_start<dim>(of_water) };
         const Tensor<1, dim> soil_predicted = vector_of<dim>(of_soil + Field<dim>::velocity);

@@ -35,7 +35,8 @@ namespace scree
                            const PorePressure<dim> &pressure,
                            const double time_step);
 
-    /// Adds the force of the old pressure to the sums of soil and water.
+    /// Adds the force of the old pressure to the sums of soil and water. Where both are light, all forces act on what
+    /// they count as (PoreField::pressed_share).
     void add_pressure_forces(const MixtureNodes<dim> &nodes, PorePressure<dim> &pressure, const double time_step) const;
 
     /// The nodes as the pressure sees them, after predict().
@@ -69,13 +70,8 @@ namespace scree
     /// of what it lacks; where both are, they count as more.
     double least_inertia(const PorePressure<dim> &pressure, const unsigned int node) const;
 
-    /// What soil and water at an owned node count as, over their mass: 1, or more where both are lighter than that.
-    double
-    pressed_share(const MixtureNodes<dim> &nodes, const PorePressure<dim> &pressure, const unsigned int node) const;
-
     /// Soil and water at an owned node, as the pressure moves them.
-    DragBlock<dim>
-    pressed_block_at(const MixtureNodes<dim> &nodes, const PorePressure<dim> &pressure, const unsigned int node) const;
+    DragBlock<dim> pressed_block_at(const MixtureNodes<dim> &nodes, const unsigned int node) const;
 
     /// Of what holds soil and water at the node, m/s.
     SoilAndWater<dim> velocity_of_walls(const unsigned int node) const;

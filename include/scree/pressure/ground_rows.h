@@ -114,6 +114,12 @@ namespace scree
     /// @param power of the shape functions times area: 1, or 2 for the diagonal of N A^-1 N^T
     void find_sums(const FlowField<dim> &values, const int power, std::vector<double> &result) const;
 
+    /// Shape function of a row at a node of its cell times the area, m^(dim-1).
+    double weight(const unsigned int row, const unsigned int i) const
+    {
+      return of_flow[row * grid.n_nodes_per_cell() + i];
+    }
+
     std::vector<GroundRow<dim>> all; ///< with the tractions of the last solve
 
   private:

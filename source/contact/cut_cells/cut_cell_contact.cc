@@ -2,6 +2,7 @@
 #include <scree/contact/cut_cells/cut_cell_contact.h>
 #include <scree/contact/cut_cells/clamp_to_box.h>
 #include <scree/mixture/mixture.h>
+#include <scree/tensor/vector.h>
 
 #include <deal.II/base/geometry_info.h>
 
@@ -192,7 +193,7 @@ namespace scree
       return;
     const TimedPart part(timer, TimerSection::bed);
     for (OfSegment &segment : of_segments)
-      segment.soil = segment.water = Tensor<1, dim>();
+      segment.viscous = Tensor<1, dim>();
     if (!any_holds_water)
       return;
     holding.clear();
@@ -242,7 +243,7 @@ namespace scree
   CutCellContact<dim>::take_viscous_force(const NodalField<dim> &motion, const double viscosity, const double time_step)
   {
     for (const unsigned int s : holding)
-      of_segments[s].water -= time_step * viscous_force(s, motion, 1., viscosity);
+      of_segments[s].viscous -= time_step * viscous_force(s, motion, 1., viscosity);
   }
 
 
@@ -274,69 +275,74 @@ namespace scree
     if (ground == nullptr)
       return;
     const TimedPart part(timer, TimerSection::bed);
+    balance.obstacles.resize(n_obstacles);
     for (OfSegment &segment : of_segments)
       segment.tractions.soil = segment.tractions.water = Tensor<1, dim>();
-    for (const GroundRow<dim> &row : rows.all)
+    for (unsigned int k = 0; k < rows.all.size(); ++k)
       {
-        OfSegment &segment                                                            = of_segments[row.segment];
-        (row.phase == Phase::soil ? segment.tractions.soil : segment.tractions.water) = row.traction;
-        (row.phase == Phase::soil ? segment.soil : segment.water) += time_step * row.area * row.traction;
-        balance.pressure_impulse += time_step * row.area * row.traction; // which the corrector has booked there
+        const GroundRow<dim> &row      = rows.all[k];
+        const bool of_soil             = row.phase == Phase::soil;
+        FacetTractions<dim> &tractions = of_segments[row.segment].tractions;
+        const unsigned int *of_cell    = grid.nodes(cut_cells->segments()[row.segment].cell);
+        const Tensor<1, dim> of_weight = time_step * row.traction;
+        const auto weights             = [&](const unsigned int i) -> std::array<double, 2> {
+          // Where both phases are light, a part of the force is of no mass.
+          return { { rows.weight(k, i), rows.weight(k, i) / nodes.pores[of_cell[i]][PoreField<dim>::pressed_share] } };
+        };
+        (of_soil ? tractions.soil : tractions.water) = row.traction;
+        balance.pressure_impulse += // The corrector has booked it there.
+            count(row.segment, of_soil ? nodes.soil : nodes.water, of_weight, weights, balance);
       }
-    count(nodes, balance);
+    for (const unsigned int s : holding)
+      {
+        const CutFacet<dim> &segment = cut_cells->segments()[s];
+        const unsigned int *of_cell  = grid.nodes(segment.cell);
+        const auto weights           = [&](const unsigned int i) -> std::array<double, 2> {
+          const double shape = nodes.water[of_cell[i]][NodalField<dim>::mass] > 0. ? segment.shapes[i] : 0.;
+          return { { shape, shape } };
+        };
+        count(s, nodes.water, of_segments[s].viscous, weights, balance);
+      }
   }
 
 
   template <int dim>
-  void CutCellContact<dim>::count(const MixtureNodes<dim> &nodes, Budget<dim> &balance) const
+  template <typename Weights>
+  Tensor<1, dim> CutCellContact<dim>::count(const unsigned int s,
+                                            const NodalField<dim> &field,
+                                            const Tensor<1, dim> &force,
+                                            const Weights &weights,
+                                            Budget<dim> &balance) const
   {
-    balance.obstacles.resize(n_obstacles);
-    for (unsigned int s = 0; s < of_segments.size(); ++s)
+    if (force.norm_square() == 0.)
+      return force;
+    const CutFacet<dim> &segment = cut_cells->segments()[s];
+    const unsigned int *of_cell  = grid.nodes(segment.cell);
+    double of_momentum           = 0.;
+    Tensor<1, dim> velocity; // mean of the step's, with which an impulse does work
+    for (unsigned int i = 0; i < segment.shapes.size(); ++i)
       {
-        const OfSegment &taken = of_segments[s];
-        if (taken.soil.norm_square() + taken.water.norm_square() == 0.)
-          continue;
-        const CutFacet<dim> &segment = cut_cells->segments()[s];
-        const unsigned int *of_cell  = grid.nodes(segment.cell);
-        Tensor<1, dim> impulse;
-        double dissipation = 0.;
-        const auto add     = [&](const NodalField<dim> &field, const Tensor<1, dim> &of_phase) {
-          if (of_phase.norm_square() == 0.)
-            return;
-          constexpr unsigned int last =
-              NodalField<dim>::n_components - 4; // The change of velocity ends a node's values.
-          double share = 0.;
-          NodeRow motions{}, last_values{};
-          for (unsigned int i = 0; i < segment.shapes.size(); ++i)
-            {
-              const double *values = field[of_cell[i]];
-              const double shape   = values[NodalField<dim>::mass] > 0. ? segment.shapes[i] : 0.;
-              share += shape;
-              motions += shape * load_row(values + NodalField<dim>::velocity);
-              last_values += shape * load_row(values + last);
-            }
-          Tensor<1, dim> velocity; // mean of the step's, with which an impulse does work
-          for (unsigned int c = 0; c < dim; ++c)
-            velocity[c] = motions[c] - 0.5 * last_values[NodalField<dim>::velocity_change - last + c];
-          impulse -= share * of_phase;
-          dissipation += of_phase * velocity;
-        };
-        add(nodes.soil, taken.soil);
-        add(nodes.water, taken.water);
-        if (ObstacleBalance<dim> *obstacle = balance_of(s, balance))
-          {
-            const double work = impulse * cut_cells->velocity(segment);
-            obstacle->impulse += impulse;
-            obstacle->add_moment(cut_cells->segments()[s].middle - surface_of(s).obstacle->pivot, impulse);
-            obstacle->work += work;
-            obstacle->dissipation += work + dissipation;
-          }
-        else
-          {
-            balance.bed_impulse += impulse;
-            balance.bed_dissipation += dissipation;
-          }
+        const auto [weight, weight_of_momentum] = weights(i);
+        of_momentum += weight_of_momentum;
+        velocity += weight * (vector_of<dim>(field[of_cell[i]] + NodalField<dim>::velocity) -
+                              0.5 * vector_of<dim>(field[of_cell[i]] + NodalField<dim>::velocity_change));
       }
+    const Tensor<1, dim> given = of_momentum * force;
+    const double dissipation   = force * velocity;
+    if (ObstacleBalance<dim> *obstacle = balance_of(s, balance))
+      {
+        const double work = -given * cut_cells->velocity(segment);
+        obstacle->impulse -= given;
+        obstacle->add_moment(segment.middle - surface_of(s).obstacle->pivot, -given);
+        obstacle->work += work;
+        obstacle->dissipation += work + dissipation;
+      }
+    else
+      {
+        balance.bed_impulse -= given;
+        balance.bed_dissipation += dissipation;
+      }
+    return given;
   }
 
 

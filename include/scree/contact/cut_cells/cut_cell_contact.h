@@ -94,14 +94,21 @@ namespace scree
     /// Of a segment.
     struct OfSegment
     {
-      dealii::Tensor<1, dim> soil, water; // N s, out of the open: impulses of this step
-      FacetTractions<dim> tractions;      // of the last solve, with which the next one begins
+      dealii::Tensor<1, dim> viscous; // N s, out of the open, of add_viscous_force() in this step
+      FacetTractions<dim> tractions;  // of the last solve, with which the next one begins
     };
 
     void make_segments();
 
-    /// Adds the step's impulses and their work; ghosts of `nodes` hold values.
-    void count(const MixtureNodes<dim> &nodes, Budget<dim> &balance) const;
+    /// Books a force that soil or water has given to a segment, times its weights at the nodes, N s, and its work; what
+    /// of that is momentum. Ghosts of `field` hold values.
+    /// @param weights by node of the cell, and what of them counts as momentum
+    template <typename Weights>
+    dealii::Tensor<1, dim> count(const unsigned int segment,
+                                 const NodalField<dim> &field,
+                                 const dealii::Tensor<1, dim> &force,
+                                 const Weights &weights,
+                                 Budget<dim> &balance) const;
 
     /// Calls `act(segment)` for the segments in a cell.
     template <typename Function>
