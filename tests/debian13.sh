@@ -51,8 +51,9 @@ use_machine "$root"
 # What an interrupted run has left.
 chroot "$root" sh -c 'dpkg --configure -a && apt-get -y -f install' >"$folder/repair.log" 2>&1
 
-# What git knows, as it lies here; built files of the last time stay.
+# What git knows, as it lies here, and nothing that it knew the last time; built files stay.
 mkdir -p "$root/scree"
+find "$root/scree" -mindepth 1 -maxdepth 1 ! -name 'build*' -exec rm -rf {} +
 git -C "$source" ls-files -z | (cd "$source" && tar --null --files-from=- -c) | tar -x -C "$root/scree" || exit 1
 
 failed=0
