@@ -20,6 +20,7 @@ namespace scree
                                          "waiting for other ranks",
                                          "repartition",
                                          "output" };
+    static_assert(std::size(names) == step_parts.size());
     return names[static_cast<unsigned int>(part)];
   }
 

@@ -10,6 +10,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <functional>
+#include <limits>
 #include <map>
 
 namespace scree

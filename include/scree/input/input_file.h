@@ -5,6 +5,7 @@
 #include <scree/input/case_entries.h>
 
 #include <functional>
+#include <utility>
 
 namespace scree
 {

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/point.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>

@@ -5,6 +5,8 @@
 
 #include <scree/materials/laws/linear_elastic.h>
 
+#include <tuple>
+
 namespace scree
 {
   /// Tests that a friction angle can come from.
