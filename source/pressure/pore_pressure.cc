@@ -100,29 +100,38 @@ namespace scree
   template <int dim>
   void PorePressure<dim>::solve(Mixture<dim> &mixture,
                                 const MixtureNodes<dim> &nodes,
+                                GroundRows<dim> *rows,
+                                const bool holds_pressure,
                                 const double time_step,
                                 Budget<dim> &balance)
   {
     {
       const TimedPart timed(timer, TimerSection::pressure_system);
       find_mobilities(mixture, time_step);
-      schur.assemble(mixture, pressed_nodes, time_step);
+      schur.assemble(mixture, pressed_nodes, rows, time_step);
       schur.find_source(nodes, pressure, source);
       surface.clear(change);
       const double storage = bulk_modulus > 0 ? 1. / (bulk_modulus * time_step) : 0.;
-      solver.assemble(mixture, surface, time_step, [&](const unsigned int vertex) {
-        return storage * surface.water_volume(vertex);
-      });
+      solver.assemble(
+          mixture,
+          surface,
+          time_step,
+          [&](const unsigned int vertex) { return storage * surface.water_volume(vertex); },
+          rows != nullptr);
     }
     const TimedPart timed(timer, TimerSection::pressure_solve);
-    const SolveReport report = solver.solve(source, pressure, relative_tolerance, change);
-    solver.update_preconditioner_age(report);
-    count(report, balance);
-    const auto [more, n_cavitating] = solver.enforce_least_pressure(cavitation_pressure, pressure, change);
-    count(more, balance);
-    balance.n_cavitating += n_cavitating;
+    const auto result =
+        solver.solve({ source, pressure, relative_tolerance, cavitation_pressure, !holds_pressure }, change, rows);
+    solver.update_preconditioner_age(result.first);
+    count(result.first, balance);
+    count(result.further, balance);
+    balance.n_cavitating += result.n_cavitating;
     change.update_ghost_values();
     surface.extend(change);
+    tractions.clear();
+    if (rows)
+      for (const GroundRow<dim> &row : rows->all)
+        tractions.push_back(row.traction);
   }
 
 
@@ -141,7 +150,7 @@ namespace scree
   {
     // It moves a part of a surplus only; what this misses is left to the next steps.
     const double tolerance_of_potential = std::min(1e-2, 100. * relative_tolerance);
-    count(solver.solve(source, pressure, tolerance_of_potential, potential), balance);
+    count(solver.solve({ source, pressure, tolerance_of_potential }, potential).first, balance);
     potential.update_ghost_values();
     surface.extend(potential);
   }

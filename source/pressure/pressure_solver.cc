@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 namespace scree
@@ -17,12 +16,6 @@ namespace scree
     /// with splines.
     template <int dim>
     constexpr double inside_water = dim == 2 ? 0.079 : 0.055;
-
-    /// Of this rank's numbers.
-    double local_square(const VertexVector &vector)
-    {
-      return std::inner_product(vector.begin(), vector.end(), vector.begin(), 0.);
-    }
   } // namespace
 
 
@@ -61,14 +54,22 @@ namespace scree
   void PressureSolver<dim>::assemble(const Mixture<dim> &mixture,
                                      const FreeSurface<dim> &surface,
                                      const double time_step,
-                                     const std::function<double(unsigned int vertex)> &storage)
+                                     const std::function<double(unsigned int vertex)> &storage,
+                                     const bool has_rows)
   {
     if (numbering.update(mixture))
       {
         system.reinit();
-        for (VertexVector *vector :
-             { &source, &solution, &scratch, &remainder, &preconditioned, &product, &direction, &direction_product })
-          vector->reinit(numbering.partitioner());
+        for (Joint *vector : { &source,
+                               &solution,
+                               &residual,
+                               &scratch,
+                               &remainder,
+                               &preconditioned,
+                               &product,
+                               &direction,
+                               &direction_product })
+          vector->of_vertices.reinit(numbering.partitioner());
         is_worn = true;
       }
     system.assemble(mixture, surface, time_step, storage);
@@ -86,19 +87,38 @@ namespace scree
         }
       else
         storage_of_number[i] = scale_of_number[i] = 0.;
+    if (has_rows)
+      schur.find_diagonal_of_rows(diagonal_of_row, sum_of_row);
   }
 
 
   template <int dim>
-  void PressureSolver<dim>::vmult(VertexVector &target, const VertexVector &source)
+  void PressureSolver<dim>::vmult(Joint &target, const Joint &source)
   {
     for (unsigned int i = 0; i < system.n_owned(); ++i)
-      of_schur.local_element(numbering.vertex(i)) = system.is_unknown(i) ? source.local_element(i) : 0.;
-    schur.vmult(times_schur, of_schur);
+      of_schur.local_element(numbering.vertex(i)) = system.is_unknown(i) ? source.of_vertices.local_element(i) : 0.;
+    schur.vmult(times_schur, target.of_rows, of_schur, source.of_rows);
     for (unsigned int i = 0; i < system.n_owned(); ++i)
-      target.local_element(i) = system.is_unknown(i) ? times_schur.local_element(numbering.vertex(i)) +
-                                                           storage_of_number[i] * source.local_element(i)
-                                                     : 0.;
+      target.of_vertices.local_element(i) = system.is_unknown(i)
+                                                ? times_schur.local_element(numbering.vertex(i)) +
+                                                      storage_of_number[i] * source.of_vertices.local_element(i)
+                                                : 0.;
+    constexpr double regularisation = 1e-7; // the rows of small facets nearly depend on those beside them
+    for (unsigned int k = 0; k < target.of_rows.size(); ++k)
+      {
+        const GroundRow<dim> &row = (*rows)[k];
+        target.of_rows[k] += regularisation * diagonal_of_row[k] * source.of_rows[k];
+        if (row.held == HeldMotion::all)
+          target.of_rows[k] += row.compliance * row.along(source.of_rows[k]);
+      }
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::keep_held_motion(typename GroundRows<dim>::Vectors &flows) const
+  {
+    for (unsigned int k = 0; k < flows.size(); ++k)
+      flows[k] = (*rows)[k].held_part(flows[k]);
   }
 
 
@@ -115,35 +135,51 @@ namespace scree
   template <int dim>
   typename PressureSolver<dim>::Iterations PressureSolver<dim>::iterate(const unsigned int most)
   {
-    const auto n_owned = system.n_owned();
-    vmult(remainder, solution);
-    remainder.sadd(-1., 1., source);
-    direction         = 0.;
-    direction_product = 0.;
-    Iterations result{ 0, remainder.l2_norm() };
+    const unsigned int n_owned = system.n_owned(), n_rows = source.of_rows.size();
+    find_residual();
+    remainder = residual;
+    keep_held_motion(remainder.of_rows);
+    direction.clear(n_rows);
+    direction_product.clear(n_rows);
+    preconditioned.clear(n_rows);
+    product.clear(n_rows);
+    Iterations result{ 0, std::sqrt(Utilities::MPI::sum(local_square(remainder), grid.communicator())) };
     double last_projection = 1., last_length = 1.;
     while (result.residual > tolerance && result.n < most)
       {
         for (unsigned int i = 0; i < n_owned; ++i)
-          scratch.local_element(i) = scale_of_number[i] * remainder.local_element(i);
-        preconditioner->vmult(preconditioned, scratch);
+          scratch.of_vertices.local_element(i) = scale_of_number[i] * remainder.of_vertices.local_element(i);
+        preconditioner->vmult(preconditioned.of_vertices, scratch.of_vertices);
         for (unsigned int i = 0; i < n_owned; ++i)
-          preconditioned.local_element(i) *= scale_of_number[i];
-        vmult(product, preconditioned);
-        const double *r = remainder.begin(), *z = preconditioned.begin(), *w = product.begin();
-        const double *s = direction_product.begin();
-        double rr = 0, rz = 0, zw = 0, rw = 0, ww = 0, rs = 0, ws = 0, ss = 0;
-        for (unsigned int i = 0; i < n_owned; ++i)
+          preconditioned.of_vertices.local_element(i) *= scale_of_number[i];
+        for (unsigned int k = 0; k < n_rows; ++k)
           {
-            rr += r[i] * r[i];
-            rz += r[i] * z[i];
-            zw += z[i] * w[i];
-            rw += r[i] * w[i];
-            ww += w[i] * w[i];
-            rs += r[i] * s[i];
-            ws += w[i] * s[i];
-            ss += s[i] * s[i];
+            const GroundRow<dim> &row  = (*rows)[k];
+            const Tensor<1, dim> &flow = remainder.of_rows[k];
+            const Tensor<1, dim> along = row.along(flow);
+            preconditioned.of_rows[k] =
+                (flow - along) / diagonal_of_row[k] + along / (diagonal_of_row[k] + row.compliance);
           }
+        vmult(product, preconditioned);
+        keep_held_motion(product.of_rows);
+
+        double rr = 0, rz = 0, zw = 0, rw = 0, ww = 0, rs = 0, ws = 0, ss = 0;
+        const auto add = [&](const auto &r, const auto &z, const auto &w, const auto &s) {
+          rr += r * r;
+          rz += r * z;
+          zw += z * w;
+          rw += r * w;
+          ww += w * w;
+          rs += r * s;
+          ws += w * s;
+          ss += s * s;
+        };
+        const double *r = remainder.of_vertices.begin(), *z = preconditioned.of_vertices.begin(),
+                     *w = product.of_vertices.begin(), *s = direction_product.of_vertices.begin();
+        for (unsigned int i = 0; i < n_owned; ++i)
+          add(r[i], z[i], w[i], s[i]);
+        for (unsigned int k = 0; k < n_rows; ++k)
+          add(remainder.of_rows[k], preconditioned.of_rows[k], product.of_rows[k], direction_product.of_rows[k]);
         std::array<double, 8> sums{ { rr, rz, zw, rw, ww, rs, ws, ss } };
         Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
                             grid.communicator(),
@@ -155,8 +191,8 @@ namespace scree
         const double length    = rz / curvature;
         direction.sadd(turn, 1., preconditioned);
         direction_product.sadd(turn, 1., product);
-        solution.add(length, direction);
-        remainder.add(-length, direction_product);
+        solution.sadd(1., length, direction);
+        remainder.sadd(1., -length, direction_product);
         last_projection = rz;
         last_length     = length;
         ++result.n;
@@ -164,15 +200,54 @@ namespace scree
         const double square =
             rr - 2. * length * (rw + turn * rs) + length * length * (ww + 2. * turn * ws + turn * turn * ss);
         constexpr double rounded_away = 1e-8;
-        result.residual               = square > rounded_away * rr ? std::sqrt(square) : remainder.l2_norm();
+        result.residual               = square > rounded_away * rr
+                                            ? std::sqrt(square)
+                                            : std::sqrt(Utilities::MPI::sum(local_square(remainder), grid.communicator()));
       }
     return result;
   }
 
 
   template <int dim>
+  void PressureSolver<dim>::Joint::sadd(const double factor, const double other_factor, const Joint &other)
+  {
+    of_vertices.sadd(factor, other_factor, other.of_vertices);
+    for (unsigned int k = 0; k < of_rows.size(); ++k)
+      of_rows[k] = factor * of_rows[k] + other_factor * other.of_rows[k];
+  }
+
+
+  template <int dim>
+  double PressureSolver<dim>::local_square(const Joint &vector) const
+  {
+    double square = 0.;
+    for (const double value : vector.of_vertices)
+      square += value * value;
+    for (const Tensor<1, dim> &value : vector.of_rows)
+      square += value.norm_square();
+    return square;
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::find_residual()
+  {
+    residual.clear(source.of_rows.size());
+    vmult(residual, solution);
+    residual.sadd(-1., 1., source);
+    for (unsigned int i = 0; i < system.n_owned(); ++i)
+      if (!system.is_unknown(i))
+        residual.of_vertices.local_element(i) = 0.;
+  }
+
+
+  template <int dim>
   void PressureSolver<dim>::converge(SolveReport &report)
   {
+    const bool holds_some = std::find(is_held.begin(), is_held.end(), char(true)) != is_held.end();
+    const bool any_held   = Utilities::MPI::logical_or(holds_some, grid.communicator());
+    if (any_held)
+      system.hold(is_held);
     Iterations last{};
     const auto has_converged = [&](const unsigned int most) {
       last = iterate(most);
@@ -198,91 +273,165 @@ namespace scree
         iterations_when_new = last.n;
         surplus_iterations  = 0;
       }
+    if (any_held)
+      system.release();
   }
 
 
   template <int dim>
-  SolveReport PressureSolver<dim>::solve(const VertexVector &rhs,
-                                         const VertexVector &pressure,
-                                         const double relative_tolerance,
-                                         VertexVector &change)
+  void PressureSolver<dim>::start_rows()
   {
-    take(pressure, solution);
-    vmult(scratch, solution);
-    take(rhs, source);
-    take(change, solution);
-    const std::vector<double> squares{ local_square(scratch), local_square(source) };
-    std::vector<double> of_ranks(2);
-    Utilities::MPI::sum(squares, grid.communicator(), of_ranks);
-    tolerance = relative_tolerance * std::sqrt(std::max(of_ranks[0], of_ranks[1]));
-    SolveReport report;
-    converge(report);
-    for (unsigned int i = 0; i < system.n_owned(); ++i)
-      change.local_element(numbering.vertex(i)) = system.is_unknown(i) ? solution.local_element(i) : 0.;
-    return report;
-  }
-
-
-  template <int dim>
-  void PressureSolver<dim>::solve_held(const std::vector<char> &is_held, VertexVector &residual, SolveReport &report)
-  {
-    VertexVector held(numbering.partitioner()), &right_side = residual;
-    right_side = source;
-    for (unsigned int i = 0; i < is_held.size(); ++i)
-      held.local_element(i) = is_held[i] ? solution.local_element(i) : 0.;
-    vmult(scratch, held);
-
-    // The held vertices leave the system like those of a drained wall.
-    system.hold(is_held);
-    for (unsigned int i = 0; i < is_held.size(); ++i)
+    for (unsigned int k = 0; k < source.of_rows.size(); ++k)
       {
-        source.local_element(i)   = system.is_unknown(i) ? source.local_element(i) - scratch.local_element(i) : 0.;
-        solution.local_element(i) = system.is_unknown(i) ? solution.local_element(i) : 0.;
+        GroundRow<dim> &row   = (*rows)[k];
+        const double pressing = row.traction * row.normal;
+        if (!row.is_unilateral)
+          row.held = row.friction > 0. ? HeldMotion::all : HeldMotion::across;
+        else if (pressing > 0. || row.flow * row.normal > 0.)
+          row.held = HeldMotion::across;
+        else
+          row.held = HeldMotion::none;
+        if (row.is_unilateral && (pressing <= 0. || row.friction == 0.))
+          row.traction = std::max(pressing, 0.) * row.normal;
+        source.of_rows[k]   = row.flow;
+        solution.of_rows[k] = row.traction;
       }
-    converge(report);
-    system.release();
-
-    for (unsigned int i = 0; i < is_held.size(); ++i)
-      if (is_held[i])
-        solution.local_element(i) = held.local_element(i);
-    source = right_side;
-    vmult(scratch, solution);
-    residual = scratch;
-    residual -= source;
   }
 
 
   template <int dim>
-  std::pair<SolveReport, unsigned int>
-  PressureSolver<dim>::enforce_least_pressure(const double least, const VertexVector &pressure, VertexVector &change)
+  double PressureSolver<dim>::choose_vertices(const Task &task, const bool is_last)
   {
-    constexpr unsigned int most_sweeps = 5; // Vertices below after them are held without another solve.
-    std::pair<SolveReport, unsigned int> result;
-    std::vector<char> is_held(system.n_owned(), false);
-    VertexVector residual;
-    const auto bound = [&](const unsigned int i) { return least - pressure.local_element(numbering.vertex(i)); };
-    for (unsigned int sweep = 0;; ++sweep)
+    double change = 0.;
+    for (unsigned int i = 0; i < is_held.size(); ++i)
+      if (system.is_unknown(i))
+        {
+          double &value      = solution.of_vertices.local_element(i);
+          const double left  = residual.of_vertices.local_element(i);
+          const double least = task.least_pressure - task.pressure.local_element(numbering.vertex(i));
+          const bool holds   = is_held[i] ? is_last || left <= tolerance : value < least;
+          if (holds != bool(is_held[i]))
+            change = std::numeric_limits<double>::max();
+          is_held[i] = holds;
+          if (holds)
+            value = least;
+        }
+    return change;
+  }
+
+
+  template <int dim>
+  double PressureSolver<dim>::choose_rows(const bool releases)
+  {
+    double change = 0.;
+    for (unsigned int k = 0; k < source.of_rows.size(); ++k)
       {
-        bool has_changed = false;
-        for (unsigned int i = 0; i < is_held.size(); ++i)
-          if (system.is_unknown(i))
-            {
-              const bool holds = is_held[i] ? residual.local_element(i) >= -tolerance || sweep == most_sweeps
-                                            : solution.local_element(i) < bound(i);
-              has_changed      = has_changed || holds != bool(is_held[i]);
-              is_held[i]       = holds;
-              if (holds)
-                solution.local_element(i) = bound(i);
-            }
-        if (sweep == most_sweeps || !Utilities::MPI::logical_or(has_changed, grid.communicator()))
+        GroundRow<dim> &row = (*rows)[k];
+        if (!row.is_unilateral)
+          continue;
+        Tensor<1, dim> &traction = solution.of_rows[k];
+        const double pressing = traction * row.normal, inflow = residual.of_rows[k] * row.normal;
+        if (row.held == HeldMotion::none && inflow > 0.)
+          {
+            row.held = HeldMotion::across;
+            change += inflow * inflow;
+          }
+        else if (releases && row.held != HeldMotion::none && pressing <= 0.)
+          {
+            change += (diagonal_of_row[k] * traction).norm_square();
+            row.held       = HeldMotion::none;
+            row.compliance = 0.;
+            traction       = Tensor<1, dim>();
+          }
+      }
+    return change;
+  }
+
+
+  template <int dim>
+  double PressureSolver<dim>::choose_friction()
+  {
+    double change = 0.;
+    for (unsigned int k = 0; k < source.of_rows.size(); ++k)
+      {
+        GroundRow<dim> &row = (*rows)[k];
+        if (!row.is_unilateral || row.friction == 0. || row.held == HeldMotion::none ||
+            solution.of_rows[k] * row.normal <= 0.)
+          continue;
+        const Tensor<1, dim> &traction = solution.of_rows[k];
+        const Tensor<1, dim> along     = row.along(traction),
+                             slip      = row.along(residual.of_rows[k]) + row.compliance * along;
+        const double available         = row.friction * (traction * row.normal);
+        const double needed            = (along + slip / sum_of_row[k]).norm();
+        const double before            = row.compliance;
+        row.compliance                 = needed > available ? sum_of_row[k] * (needed / available - 1.) : 0.;
+        change += row.held == HeldMotion::all ? std::pow(row.compliance - before, 2) * along.norm_square()
+                                              : slip.norm_square();
+        row.held = HeldMotion::all;
+      }
+    return change;
+  }
+
+
+  template <int dim>
+  typename PressureSolver<dim>::Result
+  PressureSolver<dim>::solve(const Task &task, VertexVector &change, GroundRows<dim> *ground)
+  {
+    constexpr unsigned int most_sweeps   = 5;   // What changes after them is held without another solve.
+    constexpr unsigned int most_releases = 3;   // Then rows are only added, so that the search ends.
+    constexpr double coarser             = 10.; // friction that changes by less has been found
+    rows                                 = ground ? &ground->all : nullptr;
+    for (Joint *vector : { &source, &solution, &scratch })
+      vector->of_rows.assign(rows ? rows->size() : 0, Tensor<1, dim>());
+    take(task.pressure, solution.of_vertices);
+    vmult(scratch, solution);
+    take(task.flow, source.of_vertices);
+    take(change, solution.of_vertices);
+    if (rows)
+      start_rows();
+    std::array<double, 2> squares{ { local_square(scratch), local_square(source) } };
+    Utilities::MPI::sum(
+        ArrayView<const double>(squares.data(), 2), grid.communicator(), ArrayView<double>(squares.data(), 2));
+    tolerance = task.relative_tolerance * std::sqrt(std::max(squares[0], squares[1]));
+    is_held.assign(system.n_owned(), !task.has_pressure);
+    Result result;
+    const bool rubs = rows && Utilities::MPI::logical_or(
+                                  std::any_of(rows->begin(),
+                                              rows->end(),
+                                              [](const auto &row) { return row.is_unilateral && row.friction > 0.; }),
+                                  grid.communicator());
+    constexpr unsigned int most_passes = 4; // between pressure and friction
+    if (rubs)
+      {
+        find_residual();
+        choose_friction();
+      }
+    for (unsigned int pass = 1;; ++pass)
+      {
+        for (unsigned int sweep = 0;; ++sweep)
+          {
+            converge(pass == 1 && sweep == 0 ? result.first : result.further);
+            const bool is_last = sweep == most_sweeps;
+            double found       = 0.;
+            if (rows || sweep > 0)
+              find_residual();
+            if (task.has_pressure)
+              found += choose_vertices(task, is_last);
+            if (rows && !is_last)
+              found += choose_rows(sweep < most_releases);
+            if (is_last || Utilities::MPI::sum(found, grid.communicator()) <= tolerance * tolerance)
+              break;
+          }
+        if (!rubs || pass == most_passes ||
+            Utilities::MPI::sum(choose_friction(), grid.communicator()) <= std::pow(coarser * tolerance, 2))
           break;
-        if (sweep == 0)
-          residual.reinit(numbering.partitioner());
-        solve_held(is_held, residual, result.first);
       }
-    result.second = std::count(is_held.begin(), is_held.end(), true);
+    if (task.has_pressure)
+      result.n_cavitating = std::count(is_held.begin(), is_held.end(), char(true));
     for (unsigned int i = 0; i < system.n_owned(); ++i)
-      change.local_element(numbering.vertex(i)) = system.is_unknown(i) ? solution.local_element(i) : 0.;
+      change.local_element(numbering.vertex(i)) = system.is_unknown(i) ? solution.of_vertices.local_element(i) : 0.;
+    for (unsigned int k = 0; k < solution.of_rows.size(); ++k)
+      (*rows)[k].traction = solution.of_rows[k];
     return result;
   }
 

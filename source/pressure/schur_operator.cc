@@ -37,11 +37,13 @@ namespace scree
   template <int dim>
   void SchurOperator<dim>::assemble(const Mixture<dim> &mixture,
                                     const PressedNodes<dim> &pressed_nodes,
+                                    const GroundRows<dim> *of_ground,
                                     const double of_step)
   {
     // A pressure that does not change along an axis costs what it costs in 2D.
     constexpr double part_of_laplacian = dim == 2 ? 0.01 : 0.0025;
     nodes                              = &pressed_nodes;
+    rows                               = of_ground;
     time_step                          = of_step;
     stiffness.clear();
     const double scale = part_of_laplacian * time_step * std::pow(grid.cell_size(), dim - 2);
@@ -100,11 +102,15 @@ namespace scree
 
 
   template <int dim>
-  const FlowField<dim> &
-  SchurOperator<dim>::impulses(const VertexVector &pressure, const double of_step, const VertexVector *suction)
+  const FlowField<dim> &SchurOperator<dim>::impulses(const VertexVector &pressure,
+                                                     const double of_step,
+                                                     const VertexVector *suction,
+                                                     const RowVectors *tractions)
   {
     clear_flow();
     pair.add_force(pressure, flow);
+    if (tractions != nullptr && !tractions->empty())
+      rows->add_forces(*tractions, flow);
     if (suction != nullptr)
       pair.add_suction(*suction, flow);
     flow.add_contributions();
@@ -116,7 +122,10 @@ namespace scree
 
 
   template <int dim>
-  void SchurOperator<dim>::vmult(VertexVector &target, const VertexVector &pressure)
+  void SchurOperator<dim>::vmult(VertexVector &target,
+                                 RowVectors &flows,
+                                 const VertexVector &pressure,
+                                 const RowVectors &tractions)
   {
     surface.clear(full);
     for (const unsigned int vertex : surface.wet_vertices())
@@ -127,6 +136,8 @@ namespace scree
 
     clear_flow();
     pair.add_force(full, flow);
+    if (!tractions.empty())
+      rows->add_forces(tractions, flow);
     flow.add_contributions();
     for (const PressedNode<dim> &node : nodes->all)
       {
@@ -136,6 +147,9 @@ namespace scree
         PressedNodes<dim>::set_flow(node, nodes->solve(node, impulses), flow[node.node]);
       }
     flow.update_ghosts();
+    flows.clear();
+    if (!tractions.empty())
+      rows->find_flows(flow, flows);
     surface.clear(target);
     pair.add_divergence(flow, target);
     add_hourglass(1., full, target);
@@ -170,6 +184,32 @@ namespace scree
         target.local_element(vertices.nodes(part.cells()[k].cell)[v]) += stiffness[k] * (n_vertices - dim - 1);
     target.compress(VectorOperation::add);
     surface.restrict_to_unknown(target, FreeSurface<dim>::Shares::squared);
+  }
+
+
+  template <int dim>
+  void SchurOperator<dim>::find_diagonal_of_rows(std::vector<double> &diagonal, std::vector<double> &sums)
+  {
+    constexpr unsigned int soil = unsigned(Phase::soil), water = unsigned(Phase::water);
+    clear_flow();
+    rows->add_unit_forces(flow);
+    flow.add_contributions();
+    for (const PressedNode<dim> &node : nodes->all)
+      {
+        double *values       = flow[node.node];
+        const double of_soil = values[soil], of_water = values[water];
+        values[soil]  = time_step * (node.mobility.soil * of_soil + node.mobility.other * of_water);
+        values[water] = time_step * (node.mobility.other * of_soil + node.mobility.water * of_water);
+      }
+    flow.update_ghosts();
+    rows->find_sums(flow, 1, sums);
+    for (const PressedNode<dim> &node : nodes->all)
+      {
+        flow[node.node][soil]  = time_step * node.mobility.soil;
+        flow[node.node][water] = time_step * node.mobility.water;
+      }
+    flow.update_ghosts();
+    rows->find_sums(flow, 2, diagonal);
   }
 
 

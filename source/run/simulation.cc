@@ -92,6 +92,7 @@ namespace scree
     if (!folder.is_writer())
       totals = RunBalance<dim>(scene.obstacles.size()); // The writer holds the sums.
     reinit();
+    scheme->set_ground_tractions(ground_tractions);
     adaptation.look_at_points();
     output_times.begin(clock.time());
     record_case(parameters, folder);
@@ -256,6 +257,7 @@ namespace scree
   {
     const RunBalance<dim> own = totals;
     totals                    = totals.sum_over_ranks(communicator);
+    ground_tractions          = scheme->ground_tractions();
     results.sync();
     FileJob job = checkpoint_files(parameters.output_directory,
                                    clock.time(),

@@ -44,13 +44,7 @@ namespace scree
       , spacing(grid.cell_size() / std::min(model.soil_points, model.water_parameters.points_per_cell))
       , momentum(grid, *model.constraints[0], wall_gaps, forces, model.water_parameters.density, timer)
       , viscosity(grid, model.water_parameters, water, timer)
-      , contact(grid,
-                model.ground,
-                model.surfaces,
-                model.cut_cells,
-                ground_gaps,
-                model.pressure_parameters.relative_tolerance,
-                timer)
+      , contact(grid, model.ground, model.surfaces, model.cut_cells, ground_gaps, timer)
       , shifting(grid, *model.constraints[0], pressure, forces.gravity(), model.water_parameters.volume_correction_rate)
   {
     wall_gaps.add({ &soil.field, &water_field });
@@ -110,7 +104,7 @@ namespace scree
       return wall_gaps.holds_water(node, face);
     };
     pressure.find_pair(mixture, volume_of_water, holds, time_step);
-    momentum.find_flux_inertia(nodes, excess, time_step);
+    momentum.find_flux_inertia(nodes, excess, pressure, time_step);
     momentum.add_pressure_forces(nodes, pressure, time_step);
   }
 
@@ -126,12 +120,20 @@ namespace scree
     momentum.predict(nodes, time_step, transfer.kept(time_step), budget); // A v* = m v + dt (f + m g - B^T p^n)
     contact.begin_step(mixture, pressure.free_surface());
     viscosity.apply(nodes, momentum, contact, time_step, budget); // (A + dt K) v** = A v*
-    contact.predict(nodes, mixture, momentum, time_step, budget);
-    momentum.find_pressed_nodes(nodes, pressure);
-    pressure.solve(mixture, nodes, time_step, budget);    // S dp = B u** - c
-    momentum.correct(nodes, pressure, time_step, budget); // v = v** - dt A^-1 B^T dp
-    contact.correct(nodes, mixture, momentum, pressure.free_surface(), time_step, budget);
+    find_end_of_step(nodes, time_step, budget);
     end_step(nodes, time_step, budget);
+  }
+
+
+  template <int dim>
+  void
+  TwoPhaseScheme<dim>::find_end_of_step(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget)
+  {
+    GroundRows<dim> *rows = contact.find_rows(nodes, mixture, pressure.free_surface(), time_step);
+    momentum.find_pressed_nodes(nodes, pressure);
+    pressure.solve(mixture, nodes, rows, holds_water, time_step, budget); // B u = c, N v <= c
+    momentum.correct(nodes, pressure, time_step, budget);                 // v = v** - dt A^-1 (B^T dp + N^T t)
+    contact.count_rows(nodes, time_step, budget);
   }
 
 

@@ -38,10 +38,17 @@ namespace scree
     /// Finds the water's surface and the pressure at the start of a step. Collective.
     void locate(const Mixture<dim> &mixture);
 
-    /// Solves for the change of the pressure over a step from the predicted velocities, whose ghosts hold values.
-    /// Collective.
+    /// Solves for the change of the pressure over a step, and for the tractions of the ground, from the predicted
+    /// velocities, whose ghosts hold values. Collective.
     /// @param mixture gets the mobilities of its cells
-    void solve(Mixture<dim> &mixture, const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &balance);
+    /// @param rows of the ground; null: there is none
+    /// @param holds_pressure the pressure stays as it is, the ground alone acts
+    void solve(Mixture<dim> &mixture,
+               const MixtureNodes<dim> &nodes,
+               GroundRows<dim> *rows,
+               const bool holds_pressure,
+               const double time_step,
+               Budget<dim> &balance);
 
     /// See FreeSurface.
     void find_soil_depths(Mixture<dim> &mixture)
@@ -68,10 +75,10 @@ namespace scree
       return schur.impulses(pressure, time_step, surface.suction_behind());
     }
 
-    /// The same of its change over the step.
+    /// The same of its change over the step and of the ground.
     const FlowField<dim> &impulses_of_change(const double time_step)
     {
-      return schur.impulses(change, time_step);
+      return schur.impulses(change, time_step, nullptr, &tractions);
     }
 
     /// The same of a potential as of a pressure.
@@ -148,6 +155,7 @@ namespace scree
     SchurOperator<dim> schur;
     PressureSolver<dim> solver;
     VertexVector pressure, change, source;
+    typename GroundRows<dim>::Vectors tractions; // of the last solve, Pa
   };
 } // namespace scree
 

@@ -7,6 +7,7 @@
 #include <scree/pressure/schur_operator.h>
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -44,32 +45,67 @@ namespace scree
 
     /// Sets the diagonal of the matrix and its preconditioner. Collective.
     /// @param storage what the diagonal of a vertex gains: of compressible water, m^3/(Pa s)
+    /// @param has_rows whether the matrix has rows of the ground on any rank
     void assemble(const Mixture<dim> &mixture,
                   const FreeSurface<dim> &surface,
                   const double time_step,
-                  const std::function<double(unsigned int vertex)> &storage);
+                  const std::function<double(unsigned int vertex)> &storage,
+                  const bool has_rows);
 
-    /// Solves for the change of the pressure, Pa, at the unknown vertices (0 at the others); `rhs`, m^3/s, is read at
-    /// owned unknown vertices. Starts from what `change` holds, and ends when the residual is below this part of the
-    /// right-hand side or of S times `pressure`: each step finds the whole pressure, so that what is left does not add
-    /// up over steps. Collective; throws if the solver does not converge.
-    SolveReport
-    solve(const VertexVector &rhs, const VertexVector &pressure, const double relative_tolerance, VertexVector &change);
+    /// What a solve begins with.
+    struct Task
+    {
+      const VertexVector &flow;     ///< right-hand side, m^dim/s, read at owned unknown vertices
+      const VertexVector &pressure; ///< at the start of the step, Pa
+      double relative_tolerance;    ///< of the residual: over the right-hand side or S times `pressure`
+      double least_pressure = -std::numeric_limits<double>::infinity(); ///< Pa
+      bool has_pressure     = true; ///< false: the pressure stays as it is, the ground alone acts
+    };
 
-    /// Keeps the pressure of a vertex from falling below `least`, Pa: where the solution of solve(), in
-    /// `change`, would take it there, it is prescribed, and the mixture opens; it is set free again where the mixture
-    /// would close, S dp < b. A primal-dual active set (@source{hintermueller2002}): nothing is solved if no vertex is
-    /// below. To be called right after solve(). Collective; throws as solve().
-    /// @return what the solves took; the owned vertices that are held at `least`
-    std::pair<SolveReport, unsigned int>
-    enforce_least_pressure(const double least, const VertexVector &pressure, VertexVector &change);
+    /// What solves took.
+    struct Result
+    {
+      SolveReport first, further;    ///< the first solve; those with what then was found held
+      unsigned int n_cavitating = 0; ///< owned vertices that are held at the least pressure
+    };
+
+    /// Finds the change of the pressure, Pa, at the unknown vertices (0 at the others), from what `change` holds, and
+    /// the tractions of the ground's rows, so that flow is left nowhere where it is held: the least of the kinetic
+    /// energy of what is pushed, under the constraints.
+    ///
+    /// Where the pressure would fall below the least, it is prescribed, and the mixture opens; a row whose traction
+    /// would pull lifts off; one that would be held by more than Coulomb's friction slides under that: active sets
+    /// over all of them together (@source{hintermueller2002}), each followed by conjugate gradients that start from the
+    /// last solution. Each step finds the whole pressure, so that what is left does not add up over steps.
+    ///
+    /// Collective; throws if the solver does not converge.
+    Result solve(const Task &task, VertexVector &change, GroundRows<dim> *rows = nullptr);
 
     /// Has the preconditioner made anew by the next solve if it has become worse: to be told of the solves of one kind.
     void update_preconditioner_age(const SolveReport &report);
 
   private:
-    /// Sets `target` to the matrix times `source`, at the owned numbers. Collective.
-    void vmult(VertexVector &target, const VertexVector &source);
+    /// Pressures by number, Pa, and tractions by row, Pa; or flows, m^dim/s.
+    struct Joint
+    {
+      VertexVector of_vertices;
+      typename GroundRows<dim>::Vectors of_rows;
+
+      void clear(const std::size_t n_rows)
+      {
+        of_vertices = 0.;
+        of_rows.assign(n_rows, dealii::Tensor<1, dim>());
+      }
+      /// *this = factor * *this + other_factor * other.
+      void sadd(const double factor, const double other_factor, const Joint &other);
+    };
+
+    /// Sets `target` to the matrix times `source`, at the unknown numbers that are not held and at all rows.
+    /// Collective.
+    void vmult(Joint &target, const Joint &source);
+
+    /// Drops what the ground leaves free of the flow at the rows.
+    void keep_held_motion(typename GroundRows<dim>::Vectors &flows) const;
 
     /// Sets `to` to the values of the owned unknown vertices, and to 0 elsewhere.
     void take(const VertexVector &from, VertexVector &to) const;
@@ -89,8 +125,25 @@ namespace scree
     /// Solves the system from what `solution` holds; adds to the report.
     void converge(SolveReport &report);
 
-    /// Solves with `solution` prescribed where `is_held`, by owned number; `residual` is S dp - b then, at all.
-    void solve_held(const std::vector<char> &is_held, VertexVector &residual, SolveReport &report);
+    /// Sum of squares on this rank.
+    double local_square(const Joint &vector) const;
+
+    /// Finds what is left of the flow, at all unknowns. Collective.
+    void find_residual();
+
+    /// What of the rows is held at first, from the tractions before.
+    void start_rows();
+
+    /// Chooses anew which pressures are prescribed; the square of the flow by which that changed on this rank.
+    double choose_vertices(const Task &task, const bool is_last);
+
+    /// Chooses anew which rows press; the same.
+    /// @param releases rows that pull; else they are only added
+    double choose_rows(const bool releases);
+
+    /// Chooses the compliances of the rows along the ground anew, so that friction is what Coulomb's law allows; the
+    /// square of the flow by which that changed on this rank.
+    double choose_friction();
 
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &vertices;
@@ -102,9 +155,12 @@ namespace scree
     std::vector<double> storage_of_number; // on the diagonal, of owned numbers
     std::vector<double> scale_of_number;   // of the preconditioner, at least 1; see assemble()
 
-    VertexVector source, solution, scratch; // by number
+    std::vector<GroundRow<dim>> *rows = nullptr;     // of a solve; null: none
+    std::vector<double> diagonal_of_row, sum_of_row; // of dt N A^-1 N^T, m^dim/(Pa s)
+    std::vector<char> is_held;                       // by owned number: at the least pressure
+    Joint source, solution, residual, scratch;
     // Of iterate(): what is left of the source, that preconditioned, that times S; the step's direction, that times S.
-    VertexVector remainder, preconditioned, product, direction, direction_product;
+    Joint remainder, preconditioned, product, direction, direction_product;
     double tolerance = 0; // of the last solve's residual, m^3/s
 
     std::unique_ptr<PressurePreconditioner<dim>> preconditioner;

@@ -3,6 +3,7 @@
 #define scree_pressure_schur_operator_h
 
 #include <scree/boundary/drag_block.h>
+#include <scree/pressure/ground_rows.h>
 #include <scree/pressure/pressure_pair.h>
 #include <scree/transfer/water_transfer.h>
 
@@ -62,10 +63,15 @@ namespace scree
     }
   };
 
-  /// The matrix of the pressure S = T^T (dt B A^-1 B^T + H) T on the unknown vertices, applied and never stored: B of
-  /// PressurePair, T of FreeSurface, masses, drag and walls in A, and H, which sees what B^T does not: the pressures
-  /// of a cell that are not linear, at a hundredth of what a gradient of that size costs, in proportion to the part of
-  /// the cell that is wet.
+  /// The matrix of the pressure and of the tractions of rigid ground,
+  ///
+  ///     [ T^T (dt B A^-1 B^T + H) T    T^T dt B A^-1 N^T ]
+  ///     [ dt N A^-1 B^T T              dt N A^-1 N^T     ],
+  ///
+  /// on the unknown vertices and the rows of the ground, applied and never stored: B of PressurePair, T of FreeSurface,
+  /// N of GroundRows, masses, drag and walls in A, and H, which sees what B^T does not: the pressures of a cell that
+  /// are not linear, at a hundredth of what a gradient of that size costs, in proportion to the part of the cell that
+  /// is wet.
   template <int dim>
   class SchurOperator
   {
@@ -83,16 +89,25 @@ namespace scree
     /// Makes room for the flow of a mixture's cells, before a new step.
     void begin_step(const Mixture<dim> &mixture);
 
-    /// Sets the matrix of a step; the nodes must live on.
-    void assemble(const Mixture<dim> &mixture, const PressedNodes<dim> &nodes, const double time_step);
+    using RowVectors = typename GroundRows<dim>::Vectors; ///< a vector a row of the ground
 
-    /// Sets `target` to S times a pressure at the unknown owned vertices, m^3/s; the other ones of `pressure` are not
-    /// read. Collective.
-    void vmult(VertexVector &target, const VertexVector &pressure);
+    /// Sets the matrix of a step; nodes and rows must live on.
+    /// @param rows of this rank; null: none on any
+    void assemble(const Mixture<dim> &mixture,
+                  const PressedNodes<dim> &nodes,
+                  const GroundRows<dim> *rows,
+                  const double time_step);
+
+    /// Sets `target` to the flow, m^dim/s, of a pressure at the unknown owned vertices (the other ones of `pressure`
+    /// are not read) and of tractions, Pa, and `flows` to that into the ground. Collective.
+    void vmult(VertexVector &target, RowVectors &flows, const VertexVector &pressure, const RowVectors &tractions);
 
     /// Sets `target` to the diagonal of S at the unknown owned vertices, m^3/(Pa s), nearly: each cell counts by
     /// itself. To be called after assemble(). Collective.
     void find_diagonal(VertexVector &target);
+
+    /// Diagonal of dt N A^-1 N^T, and its sums of rows, m^dim/(Pa s), as if no walls held the nodes. Collective.
+    void find_diagonal_of_rows(std::vector<double> &diagonal, std::vector<double> &sums);
 
     /// Sets `target` to T^T (B u - c - H p), m^3/s, with c of the ground that is not yet reached or moves.
     /// Collective.
@@ -102,8 +117,11 @@ namespace scree
     /// Sets impulses of a pressure, N s, at the owned nodes: of u, then of q beside it. Collective.
     /// @param pressure at all vertices, with ghosts
     /// @param suction the same, of the discharge alone; may be null
-    const FlowField<dim> &
-    impulses(const VertexVector &pressure, const double time_step, const VertexVector *suction = nullptr);
+    /// @param tractions of the ground, Pa; may be null
+    const FlowField<dim> &impulses(const VertexVector &pressure,
+                                   const double time_step,
+                                   const VertexVector *suction = nullptr,
+                                   const RowVectors *tractions = nullptr);
 
   private:
     /// Adds `factor` H p.
@@ -117,6 +135,7 @@ namespace scree
     const FilledPart<dim> &part;
     const PressurePair<dim> &pair;
     const PressedNodes<dim> *nodes = nullptr;
+    const GroundRows<dim> *rows    = nullptr;
     double time_step               = 0;
     std::vector<double> stiffness; // of H in a part's cell, m^3/(Pa s)
     FlowField<dim> flow;

@@ -280,6 +280,7 @@ namespace scree
       scene.serialize_what_enters(archive);
       for (PointSet<dim> *points : point_sets())
         archive & points->next_id;
+      archive &ground_tractions;
       clock.set(time, step);
     }
 
@@ -303,9 +304,10 @@ namespace scree
     bool progress_is_due = false;       // on some rank
 
     RunBalance<dim> totals;
-    double point_updates = 0;                  // points times steps, of this rank
-    UpdateReport last_update;                  // of this rank
-    double last_time_step                 = 0; // s
+    std::vector<FacetTractions<dim>> ground_tractions; // of all ranks, at checkpoints
+    double point_updates = 0;                          // points times steps, of this rank
+    UpdateReport last_update;                          // of this rank
+    double last_time_step                 = 0;         // s
     unsigned long long step_of_checkpoint = std::numeric_limits<unsigned long long>::max(); // the newest, of this run
     bool is_released                      = true; // or was stopped while it settled
   };

@@ -8,6 +8,7 @@
 #include <scree/contact/points/point_contact.h>
 #include <scree/momentum/nodal_forces.h>
 #include <scree/momentum/surface_load.h>
+#include <scree/pressure/ground_rows.h>
 #include <scree/step/step_report.h>
 #include <scree/transfer/transfer_parameters.h>
 #include <scree/transfer/water_transfer.h>
@@ -76,6 +77,17 @@ namespace scree
 
     /// Keeps place and pressure of the water from the next step on, or lets it flow.
     virtual void hold_water(const bool)
+    {
+    }
+
+    /// Tractions of the ground on all ranks, which the next step begins with beside the points. Collective.
+    virtual std::vector<FacetTractions<dim>> ground_tractions() const
+    {
+      return {};
+    }
+
+    /// Sets those of this rank, after reinit().
+    virtual void set_ground_tractions(const std::vector<FacetTractions<dim>> &)
     {
     }
 

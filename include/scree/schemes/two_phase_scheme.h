@@ -14,9 +14,8 @@ namespace scree
   ///
   /// 1. Predictor with the old pressure: A v* = m v + dt (f - B^T p^n), where A holds masses and drag
   ///    (TwoPhaseMomentum). Then the viscosity: (A + dt K) v** = A v* (ViscousStep).
-  /// 2. Pressure: S dp = B u** - c, with u = v_s + n (v_w - v_s) and the drag in S (PorePressure).
-  /// 3. Corrector: v = v** - dt A^-1 B^T dp (TwoPhaseMomentum).
-  ///    Soil is stopped at the ground after the predictor, soil and water after the corrector (CutCellContact).
+  /// 2. Pressure and tractions t of the ground (CutCellContact) together: B u = c, N v <= c, where
+  /// 3. v = v** - dt A^-1 (B^T dp + N^T t) is the corrector, with u = v_s + n (v_w - v_s) (PorePressure).
   /// 4. Points of free water leave where they crowd (ParticleShifting).
   ///
   /// What a case does not have, viscosity, ground or shifting, is an empty object, whose calls return at once.
@@ -77,6 +76,14 @@ namespace scree
       add_nodal_forces(soil.field, &water_field, forces, time_step, sums);
       return sums;
     }
+    std::vector<FacetTractions<dim>> ground_tractions() const override
+    {
+      return contact.tractions();
+    }
+    void set_ground_tractions(const std::vector<FacetTractions<dim>> &tractions) override
+    {
+      contact.set_tractions(tractions);
+    }
     std::vector<PointSet<dim> *> point_sets() override;
     const NodalField<dim> &soil_field() override
     {
@@ -124,13 +131,16 @@ namespace scree
     /// place.
     void load_soil_with_water();
 
+    /// Pressure and tractions of the ground, and the corrector. Collective.
+    void find_end_of_step(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget);
+
     /// The solve where water keeps its place: the pressure is that of its points.
     void solve_drained(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget)
     {
       load_soil_with_water();
       momentum.predict(nodes, time_step, transfer.kept(time_step), budget);
       contact.begin_step(mixture, pressure.free_surface());
-      contact.predict(nodes, mixture, momentum, time_step, budget);
+      find_end_of_step(nodes, time_step, budget);
     }
 
     /// The water's part of to_points().

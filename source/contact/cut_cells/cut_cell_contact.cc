@@ -2,12 +2,14 @@
 #include <scree/contact/cut_cells/cut_cell_contact.h>
 #include <scree/contact/cut_cells/clamp_to_box.h>
 #include <scree/mixture/mixture.h>
+#include <scree/tensor/vector.h>
 
 #include <deal.II/base/geometry_info.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace scree
 {
@@ -19,7 +21,6 @@ namespace scree
                                       const std::vector<RigidSurface<dim>> &surfaces,
                                       const CutCells<dim> *cut_cells,
                                       const GroundGaps<dim> &gaps,
-                                      const double relative_tolerance,
                                       TimerOutput &timer)
       : grid(grid)
       , ground(ground)
@@ -28,14 +29,11 @@ namespace scree
             std::count_if(surfaces.begin(), surfaces.end(), [](const auto &s) { return s.obstacle != nullptr; }))
       , cut_cells(cut_cells)
       , gaps(gaps)
-      , relative_tolerance(relative_tolerance)
+      , rows(grid)
       , timer(timer)
       , any_holds_water(
             std::any_of(surfaces.begin(), surfaces.end(), [](const auto &surface) { return surface.no_slip; }))
   {
-    if (ground == nullptr)
-      return;
-    contacts.emplace(grid, *cut_cells);
     reinit();
   }
 
@@ -75,10 +73,25 @@ namespace scree
   template <int dim>
   void CutCellContact<dim>::reinit()
   {
-    if (!contacts)
+    if (ground == nullptr)
       return;
-    contacts->reinit();
-    of_segments.assign(cut_cells->segments().size(), OfSegment()); // The next step begins its search from nothing.
+    const std::vector<FacetTractions<dim>> before = tractions();
+    make_segments();
+    set_tractions(before);
+  }
+
+
+  template <int dim>
+  void CutCellContact<dim>::make_segments()
+  {
+    const auto &segments = cut_cells->segments();
+    of_segments.assign(segments.size(), OfSegment());
+    const FineCells<dim> &cells = grid.fine_cells();
+    for (unsigned int s = 0; s < segments.size(); ++s)
+      {
+        of_segments[s].tractions.cell = cells.cells()[cells.of_index(segments[s].cell)].number;
+        of_segments[s].tractions.part = segments[s].part;
+      }
     find_surfaces();
   }
 
@@ -86,13 +99,39 @@ namespace scree
   template <int dim>
   void CutCellContact<dim>::follow()
   {
+    const std::vector<OfSegment> before = std::move(of_segments);
+    make_segments();
     const std::vector<unsigned int> &numbers = cut_cells->numbers_before();
-    std::vector<OfSegment> now(numbers.size());
     for (unsigned int s = 0; s < numbers.size(); ++s)
       if (numbers[s] != cut_cells->none)
-        now[s] = of_segments[numbers[s]];
-    of_segments = std::move(now);
-    find_surfaces();
+        of_segments[s] = before[numbers[s]];
+  }
+
+
+  template <int dim>
+  std::vector<FacetTractions<dim>> CutCellContact<dim>::tractions() const
+  {
+    if (ground == nullptr)
+      return {};
+    std::vector<FacetTractions<dim>> own, result;
+    for (const OfSegment &segment : of_segments)
+      if (segment.tractions.soil.norm_square() + segment.tractions.water.norm_square() > 0.)
+        own.push_back(segment.tractions);
+    for (const auto &of_rank : Utilities::MPI::all_gather(grid.communicator(), own))
+      result.insert(result.end(), of_rank.begin(), of_rank.end());
+    return result;
+  }
+
+
+  template <int dim>
+  void CutCellContact<dim>::set_tractions(const std::vector<FacetTractions<dim>> &all)
+  {
+    std::map<std::pair<std::uint64_t, unsigned int>, const FacetTractions<dim> *> by_place;
+    for (const FacetTractions<dim> &one : all)
+      by_place[{ one.cell, one.part }] = &one;
+    for (OfSegment &segment : of_segments)
+      if (const auto found = by_place.find({ segment.tractions.cell, segment.tractions.part }); found != by_place.end())
+        segment.tractions = *found->second;
   }
 
 
@@ -119,69 +158,42 @@ namespace scree
 
 
   template <int dim>
-  void CutCellContact<dim>::add_contact(const unsigned int segment,
-                                        const Phase phase,
-                                        const bool is_unilateral,
-                                        const MixtureNodes<dim> &nodes,
-                                        const double time_step,
-                                        const Tensor<1, dim> &base,
-                                        const Tensor<1, dim> &first)
+  void CutCellContact<dim>::add_row(const unsigned int segment,
+                                    const Phase phase,
+                                    const bool is_unilateral,
+                                    const double mass_of_cell,
+                                    const MixtureNodes<dim> &nodes,
+                                    const double time_step)
   {
-    const CutFacet<dim> &of_ground = cut_cells->segments()[segment];
-    GroundContact<dim> contact{};
-    contact.segment       = segment;
-    contact.phase         = phase;
-    contact.is_unilateral = is_unilateral;
+    const CutFacet<dim> &facet = cut_cells->segments()[segment];
+    const OfSegment &last      = of_segments[segment];
+    GroundRow<dim> row{};
+    row.segment       = segment;
+    row.phase         = phase;
+    row.is_unilateral = is_unilateral;
     if (phase == Phase::soil)
-      contact.friction = surface_of(segment).friction_coefficient;
+      row.friction = surface_of(segment).friction_coefficient;
     else if (std::binary_search(holding.begin(), holding.end(), segment))
-      contact.friction = std::numeric_limits<double>::infinity();
-    contact.area   = of_ground.area;
-    contact.normal = of_ground.normal;
-    contact.speed =
-        mean_velocity(of_ground, phase == Phase::soil ? nodes.soil : nodes.water) - cut_cells->velocity(of_ground);
-    if (const double allowed = gaps.allowed_approach(segment, contact.speed * contact.normal, time_step); allowed > 0.)
-      {
-        contact.speed -= allowed * contact.normal;
-        if (contact.speed * contact.normal <= 0.)
-          return; // The gap does not close in this step.
-      }
-    // What neither presses nor comes near is left alone.
-    if (is_unilateral && contact.speed * contact.normal <= 0. && !(base * contact.normal > 0.))
-      return;
-    contact.base    = base;
-    contact.impulse = contact.part(contact.holds(), first);
-    contacts->add(contact);
+      row.friction = std::numeric_limits<double>::infinity();
+    row.area                       = facet.area;
+    row.normal                     = facet.normal;
+    const Tensor<1, dim> of_ground = cut_cells->velocity(facet);
+    const double approach =
+        (mean_velocity(facet, phase == Phase::soil ? nodes.soil : nodes.water) - of_ground) * row.normal;
+    const Tensor<1, dim> admissible = of_ground + gaps.allowed_approach(segment, approach, time_step) * row.normal;
+    row.traction                    = phase == Phase::soil ? last.tractions.soil : last.tractions.water;
+    rows.add(row, facet, admissible, closures::least_inertia * mass_of_cell, nodes);
   }
 
-
-  template <int dim>
-  void CutCellContact<dim>::project(const MixtureNodes<dim> &nodes,
-                                    const TwoPhaseMomentum<dim> &step,
-                                    const double wanted,
-                                    Budget<dim> &balance)
-  {
-    largest_flow = std::max(largest_flow, contacts->flow());
-    if (largest_flow == 0.)
-      return;
-    contacts->find(nodes, step, wanted * largest_flow);
-    for (const GroundContact<dim> &contact : contacts->contacts())
-      {
-        OfSegment &taken = of_segments[contact.segment];
-        (contact.phase == Phase::soil ? taken.soil : taken.water) += contact.impulse;
-      }
-    contacts->take(nodes, step, balance);
-  }
 
   template <int dim>
   void CutCellContact<dim>::begin_step(const Mixture<dim> &mixture, const FreeSurface<dim> &surface)
   {
-    if (!contacts)
+    if (ground == nullptr)
       return;
     const TimedPart part(timer, TimerSection::bed);
-    contacts->begin_step();
     for (OfSegment &segment : of_segments)
-      segment.soil = segment.water = Tensor<1, dim>();
+      segment.viscous = Tensor<1, dim>();
     if (!any_holds_water)
       return;
     holding.clear();
@@ -231,127 +243,106 @@ namespace scree
   CutCellContact<dim>::take_viscous_force(const NodalField<dim> &motion, const double viscosity, const double time_step)
   {
     for (const unsigned int s : holding)
-      of_segments[s].water -= time_step * viscous_force(s, motion, 1., viscosity);
+      of_segments[s].viscous -= time_step * viscous_force(s, motion, 1., viscosity);
   }
 
 
   template <int dim>
-  void CutCellContact<dim>::predict(const MixtureNodes<dim> &nodes,
-                                    const Mixture<dim> &mixture,
-                                    const TwoPhaseMomentum<dim> &step,
-                                    const double time_step,
-                                    Budget<dim> &balance)
+  GroundRows<dim> *CutCellContact<dim>::find_rows(const MixtureNodes<dim> &nodes,
+                                                  const Mixture<dim> &mixture,
+                                                  const FreeSurface<dim> &surface,
+                                                  const double time_step)
   {
-    if (!contacts)
-      return;
+    if (ground == nullptr)
+      return nullptr;
     const TimedPart part(timer, TimerSection::bed);
-    contacts->clear();
-    largest_flow = 0.;
-    for (const MixtureCell<dim> &cell : mixture.cells())
-      if (cell.soil_mass > 0. && !cell.is_rigid)
-        for_segments(cell.cell, [&](const unsigned int segment) {
-          const Tensor<1, dim> nothing, first = time_step * of_segments[segment].predicted_soil;
-          add_contact(segment, Phase::soil, !is_fixed(segment), nodes, time_step, nothing, first);
-        });
-    project(nodes, step, relative_tolerance, balance);
-    for (OfSegment &segment : of_segments)
-      segment.predicted_soil = segment.soil / time_step;
-    nodes.update_velocity_ghosts();
-  }
-
-
-  template <int dim>
-  void CutCellContact<dim>::correct(const MixtureNodes<dim> &nodes,
-                                    const Mixture<dim> &mixture,
-                                    const TwoPhaseMomentum<dim> &step,
-                                    const FreeSurface<dim> &surface,
-                                    const double time_step,
-                                    Budget<dim> &balance)
-  {
-    if (!contacts)
-      return;
-    const TimedPart part(timer, TimerSection::bed);
-    contacts->clear();
+    rows.clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
       for_segments(cell.cell, [&](const unsigned int segment) {
-        const OfSegment &known = of_segments[segment];
         if (cell.soil_mass > 0. && !cell.is_rigid)
-          add_contact(
-              segment, Phase::soil, !is_fixed(segment), nodes, time_step, known.soil, time_step * known.corrected_soil);
+          add_row(segment, Phase::soil, !is_fixed(segment), cell.soil_mass, nodes, time_step);
         const bool holds = std::binary_search(holding.begin(), holding.end(), segment);
         if (cell.water_volume > 0. && (holds || !surface.has_unknown(cell.cell)))
-          add_contact(segment,
-                      Phase::water,
-                      !surface.has_unknown(cell.cell),
-                      nodes,
-                      time_step,
-                      Tensor<1, dim>(),
-                      time_step * known.corrected_water);
+          add_row(segment, Phase::water, !surface.has_unknown(cell.cell), cell.water_mass, nodes, time_step);
       });
-    for (OfSegment &segment : of_segments)
-      segment.corrected_soil = segment.corrected_water = Tensor<1, dim>();
-    constexpr double coarser = 10.; // suffices: the next predictor removes the remainder
-    project(nodes, step, coarser * relative_tolerance, balance);
-    for (const GroundContact<dim> &contact : contacts->contacts())
-      {
-        OfSegment &found                                                              = of_segments[contact.segment];
-        (contact.phase == Phase::soil ? found.corrected_soil : found.corrected_water) = contact.impulse / time_step;
-      }
-    nodes.update_velocity_ghosts();
-    count(nodes, balance);
+    return &rows;
   }
 
 
   template <int dim>
-  void CutCellContact<dim>::count(const MixtureNodes<dim> &nodes, Budget<dim> &balance) const
+  void CutCellContact<dim>::count_rows(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &balance)
   {
+    if (ground == nullptr)
+      return;
+    const TimedPart part(timer, TimerSection::bed);
     balance.obstacles.resize(n_obstacles);
-    for (unsigned int s = 0; s < of_segments.size(); ++s)
+    for (OfSegment &segment : of_segments)
+      segment.tractions.soil = segment.tractions.water = Tensor<1, dim>();
+    for (unsigned int k = 0; k < rows.all.size(); ++k)
       {
-        const OfSegment &taken = of_segments[s];
-        if (taken.soil.norm_square() + taken.water.norm_square() == 0.)
-          continue;
+        const GroundRow<dim> &row      = rows.all[k];
+        const bool of_soil             = row.phase == Phase::soil;
+        FacetTractions<dim> &tractions = of_segments[row.segment].tractions;
+        const unsigned int *of_cell    = grid.nodes(cut_cells->segments()[row.segment].cell);
+        const Tensor<1, dim> of_weight = time_step * row.traction;
+        const auto weights             = [&](const unsigned int i) -> std::array<double, 2> {
+          // Where both phases are light, a part of the force is of no mass.
+          return { { rows.weight(k, i), rows.weight(k, i) / nodes.pores[of_cell[i]][PoreField<dim>::pressed_share] } };
+        };
+        (of_soil ? tractions.soil : tractions.water) = row.traction;
+        balance.pressure_impulse += // The corrector has booked it there.
+            count(row.segment, of_soil ? nodes.soil : nodes.water, of_weight, weights, balance);
+      }
+    for (const unsigned int s : holding)
+      {
         const CutFacet<dim> &segment = cut_cells->segments()[s];
         const unsigned int *of_cell  = grid.nodes(segment.cell);
-        Tensor<1, dim> impulse;
-        double dissipation = 0.;
-        const auto add     = [&](const NodalField<dim> &field, const Tensor<1, dim> &of_phase) {
-          if (of_phase.norm_square() == 0.)
-            return;
-          constexpr unsigned int last =
-              NodalField<dim>::n_components - 4; // The change of velocity ends a node's values.
-          double share = 0.;
-          NodeRow motions{}, last_values{};
-          for (unsigned int i = 0; i < segment.shapes.size(); ++i)
-            {
-              const double *values = field[of_cell[i]];
-              const double shape   = values[NodalField<dim>::mass] > 0. ? segment.shapes[i] : 0.;
-              share += shape;
-              motions += shape * load_row(values + NodalField<dim>::velocity);
-              last_values += shape * load_row(values + last);
-            }
-          Tensor<1, dim> velocity; // mean of the step's, with which an impulse does work
-          for (unsigned int c = 0; c < dim; ++c)
-            velocity[c] = motions[c] - 0.5 * last_values[NodalField<dim>::velocity_change - last + c];
-          impulse -= share * of_phase;
-          dissipation += of_phase * velocity;
+        const auto weights           = [&](const unsigned int i) -> std::array<double, 2> {
+          const double shape = nodes.water[of_cell[i]][NodalField<dim>::mass] > 0. ? segment.shapes[i] : 0.;
+          return { { shape, shape } };
         };
-        add(nodes.soil, taken.soil);
-        add(nodes.water, taken.water);
-        if (ObstacleBalance<dim> *obstacle = balance_of(s, balance))
-          {
-            const double work = impulse * cut_cells->velocity(segment);
-            obstacle->impulse += impulse;
-            obstacle->add_moment(cut_cells->segments()[s].middle - surface_of(s).obstacle->pivot, impulse);
-            obstacle->work += work;
-            obstacle->dissipation += work + dissipation;
-          }
-        else
-          {
-            balance.bed_impulse += impulse;
-            balance.bed_dissipation += dissipation;
-          }
+        count(s, nodes.water, of_segments[s].viscous, weights, balance);
       }
+  }
+
+
+  template <int dim>
+  template <typename Weights>
+  Tensor<1, dim> CutCellContact<dim>::count(const unsigned int s,
+                                            const NodalField<dim> &field,
+                                            const Tensor<1, dim> &force,
+                                            const Weights &weights,
+                                            Budget<dim> &balance) const
+  {
+    if (force.norm_square() == 0.)
+      return force;
+    const CutFacet<dim> &segment = cut_cells->segments()[s];
+    const unsigned int *of_cell  = grid.nodes(segment.cell);
+    double of_momentum           = 0.;
+    Tensor<1, dim> velocity; // mean of the step's, with which an impulse does work
+    for (unsigned int i = 0; i < segment.shapes.size(); ++i)
+      {
+        const auto [weight, weight_of_momentum] = weights(i);
+        of_momentum += weight_of_momentum;
+        velocity += weight * (vector_of<dim>(field[of_cell[i]] + NodalField<dim>::velocity) -
+                              0.5 * vector_of<dim>(field[of_cell[i]] + NodalField<dim>::velocity_change));
+      }
+    const Tensor<1, dim> given = of_momentum * force;
+    const double dissipation   = force * velocity;
+    if (ObstacleBalance<dim> *obstacle = balance_of(s, balance))
+      {
+        const double work = -given * cut_cells->velocity(segment);
+        obstacle->impulse -= given;
+        obstacle->add_moment(segment.middle - surface_of(s).obstacle->pivot, -given);
+        obstacle->work += work;
+        obstacle->dissipation += work + dissipation;
+      }
+    else
+      {
+        balance.bed_impulse -= given;
+        balance.bed_dissipation += dissipation;
+      }
+    return given;
   }
 
 
@@ -361,7 +352,7 @@ namespace scree
                                            const double time_step,
                                            Budget<dim> &balance) const
   {
-    if (!contacts || n_obstacles == 0)
+    if (ground == nullptr || n_obstacles == 0)
       return;
     const TimedPart part(timer, TimerSection::bed);
     for (const MixtureCell<dim> &cell : mixture.cells())
@@ -388,7 +379,7 @@ namespace scree
                                                 const double farthest,
                                                 const std::uint8_t closed_faces) const
   {
-    if (!contacts)
+    if (ground == nullptr)
       return;
     const TimedPart part(timer, TimerSection::bed);
     move_out_of_ground(grid, *ground, farthest, closed_faces, points);

@@ -109,8 +109,50 @@ public:
         const DragMobility mobility =
             drag_mobility(n < 1. ? 1.5 + kind : 0., n > 0. ? 1. + pattern(2. * x) / 2. : 0., 10.);
         nodes.all.push_back({ node, n, mobility, PressedNode<dim>::free });
+        pores[node][PoreField<dim>::grain_fraction] = 1. - n;
+        for (NodalField<dim> *field : { &soil_field, &water_field })
+          (*field)[node][NodalField<dim>::mass] = 1.;
       }
-    schur.assemble(mixture, nodes, time_step);
+    for (NodalField<dim> *field : { &soil_field, &water_field })
+      field->update_ghosts();
+    pores.update_ghosts();
+    add_rows();
+    schur.assemble(mixture, nodes, &rows, time_step);
+  }
+
+  /// Soil and water at a facet in each wet cell.
+  void add_rows()
+  {
+    facets.reserve(part.cells().size());
+    for (const auto &cell : part.cells())
+      {
+        const Point<dim> x = grid.node_position(grid.nodes(cell.cell)[0]);
+        CutFacet<dim> facet;
+        facet.cell      = cell.cell;
+        facet.normal[0] = 0.6;
+        facet.normal[1] = -0.8;
+        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+          facet.shapes.push_back((1. + 0.5 * pattern((i + 1.) * x)) / grid.n_nodes_per_cell());
+        facets.push_back(facet);
+        for (const Phase phase : { Phase::soil, Phase::water })
+          {
+            GroundRow<dim> row{};
+            row.phase  = phase;
+            row.area   = 0.1 + 0.05 * pattern(x);
+            row.normal = facet.normal;
+            rows.add(row, facets.back(), Tensor<1, dim>(), 0.5, { soil_field, water_field, pores });
+          }
+      }
+  }
+
+  /// A traction a row.
+  typename GroundRows<dim>::Vectors tractions(const double factor) const
+  {
+    typename GroundRows<dim>::Vectors result(rows.all.size());
+    for (unsigned int k = 0; k < result.size(); ++k)
+      for (unsigned int c = 0; c < dim; ++c)
+        result[k][c] = pattern(factor * (k % 2 + 1.) * grid.node_position(grid.nodes(facets[k / 2].cell)[c]));
+    return result;
   }
 
   /// Sets the flow at the owned nodes from functions of their places.
@@ -168,6 +210,8 @@ public:
   FilledPart<dim> part;
   PressurePair<dim> pair;
   PressedNodes<dim> nodes;
+  std::vector<CutFacet<dim>> facets;
+  GroundRows<dim> rows{ grid };
   SchurOperator<dim> schur;
   VertexVector pressure, sums;
 
@@ -254,20 +298,46 @@ void test(const std::string &basis, std::ostream &out)
         first.local_element(vertex)  = pattern(scene.corners.position(vertex));
         second.local_element(vertex) = pattern(3. * scene.corners.position(vertex));
       }
-  scene.schur.vmult(s_first, first);
-  scene.schur.vmult(s_second, second);
-  const auto only_unknown = [&](const VertexVector &a, const VertexVector &b) {
+  // The same of pressures and tractions together.
+  typename GroundRows<dim>::Vectors none, flows_first, flows_second;
+  const auto with_rows = [&](const VertexVector &a, const VertexVector &b, const auto &of_a, const auto &of_b) {
     double product = 0.;
     for (const unsigned int vertex : scene.surface.wet_vertices())
       if (scene.surface.kind(vertex) == PressureDofType::unknown)
         product += a.local_element(vertex) * b.local_element(vertex);
+    for (unsigned int k = 0; k < of_a.size(); ++k)
+      product += of_a[k] * of_b[k];
     return sum_of_ranks(product);
   };
-  const double square = only_unknown(first, s_first);
-  out << "  q.(S p) - p.(S q): "
-      << beyond_rounding(only_unknown(second, s_first) - only_unknown(first, s_second), square)
-      << ", p.(S p) > 0: " << (square > 0.) << std::endl;
-  out << "  p.(S p): " << square << std::endl;
+  for (const bool has_rows : { false, true })
+    {
+      const auto t_first = has_rows ? scene.tractions(1.) : none, t_second = has_rows ? scene.tractions(3.) : none;
+      scene.schur.vmult(s_first, flows_first, first, t_first);
+      scene.schur.vmult(s_second, flows_second, second, t_second);
+      const double square = with_rows(first, s_first, t_first, flows_first);
+      const double mixed  = with_rows(second, s_first, t_second, flows_first);
+      out << "  " << (has_rows ? "with tractions, " : "")
+          << "q.(S p) - p.(S q): " << beyond_rounding(mixed - with_rows(first, s_second, t_first, flows_second), square)
+          << ", p.(S p) > 0: " << (square > 0.) << std::endl;
+      out << "  p.(S p): " << square << std::endl;
+    }
+
+  // A traction along an axis that is 1 at every row of a phase: the sum of the flows are those of the rows' sums.
+  std::vector<double> diagonal, sums;
+  scene.schur.find_diagonal_of_rows(diagonal, sums);
+  typename GroundRows<dim>::Vectors ones(diagonal.size(), Tensor<1, dim>(Point<dim>::unit_vector(0)));
+  first = 0.;
+  scene.schur.vmult(s_first, flows_first, first, ones);
+  double difference = 0., largest = 0., least_ratio = 1.;
+  for (unsigned int k = 0; k < sums.size(); ++k)
+    {
+      difference  = std::max(difference, std::abs(flows_first[k][0] - sums[k]));
+      largest     = std::max(largest, sums[k]);
+      least_ratio = std::min(least_ratio, sums[k] > 0. ? (sums[k] - diagonal[k]) / sums[k] : 1.);
+    }
+  largest = Utilities::MPI::max(largest, MPI_COMM_WORLD);
+  out << "  sums of rows: " << beyond_rounding(Utilities::MPI::max(difference, MPI_COMM_WORLD), largest)
+      << ", beyond the diagonal: " << (Utilities::MPI::min(least_ratio, MPI_COMM_WORLD) > 0.) << std::endl;
 }
 
 

@@ -4,10 +4,9 @@
 
 #include <scree/boundary/ground_gaps.h>
 #include <scree/contact/points/point_contact.h>
-#include <scree/contact/cut_cells/contact_solver.h>
+#include <scree/momentum/two_phase_momentum.h>
+#include <scree/pressure/ground_rows.h>
 
-#include <cmath>
-#include <optional>
 #include <vector>
 
 namespace scree
@@ -16,11 +15,10 @@ namespace scree
   /// them through it.
   ///
   /// The ground in a cell is one segment, and one of each part that moves; a field's velocity there is its mean over
-  /// the segment, beside the segment's own. Impulses on soil and water there, shared out by the means of the shape
-  /// functions, stop it: N A^-1 N^T l = N v, v -= A^-1 N^T l, with masses, drag and walls in A, by conjugate gradients.
-  /// Predicted soil is stopped by itself, so that the pressure sees how it moves, while the pressure stops the water;
-  /// soil and water are stopped after the corrector. Soil that is not fixed may lift off, and rubs by Coulomb's law;
-  /// water may leave where it has no pressure. It slips along the ground, but where that holds free water.
+  /// the segment, beside the segment's own. Soil, and water in cells without an unknown pressure, get a row each
+  /// (GroundRows), whose tractions PressureSolver finds together with the pressure; elsewhere the pressure stops the
+  /// water. Soil that is not fixed may lift off, and rubs by Coulomb's law; water may leave where it has no pressure.
+  /// It slips along the ground, but where that holds free water.
   template <int dim>
   class CutCellContact
   {
@@ -29,16 +27,14 @@ namespace scree
     /// @param surfaces what it consists of
     /// @param cut_cells of the ground, null without it
     /// @param gaps between the ground and particles
-    /// @param relative_tolerance of the velocities through the ground
     CutCellContact(const BackgroundGrid<dim> &grid,
                    const RigidBoundary<dim> *ground,
                    const std::vector<RigidSurface<dim>> &surfaces,
                    const CutCells<dim> *cut_cells,
                    const GroundGaps<dim> &gaps,
-                   const double relative_tolerance,
                    dealii::TimerOutput &timer);
 
-    /// Fits the nodes to the grid's current partition, after the cells have been looked at. Collective.
+    /// Fits the facets to the grid's current partition, after the cells have been looked at. Collective.
     void reinit();
 
     /// Fits it to the ground, after the cells have followed that.
@@ -68,20 +64,15 @@ namespace scree
     /// Takes down what add_viscous_force() gives in a step of `time_step` s.
     void take_viscous_force(const NodalField<dim> &motion, const double viscosity, const double time_step);
 
-    /// Stops predicted soil. Ghosts of `nodes` hold values before and after. Collective.
-    void predict(const MixtureNodes<dim> &nodes,
-                 const Mixture<dim> &mixture,
-                 const TwoPhaseMomentum<dim> &step,
-                 const double time_step,
-                 Budget<dim> &balance);
+    /// Finds the rows of a step, with the tractions of the last one, from predicted velocities, whose ghosts hold
+    /// values; null without ground.
+    GroundRows<dim> *find_rows(const MixtureNodes<dim> &nodes,
+                               const Mixture<dim> &mixture,
+                               const FreeSurface<dim> &surface,
+                               const double time_step);
 
-    /// Stops soil and water after the corrector, as predict().
-    void correct(const MixtureNodes<dim> &nodes,
-                 const Mixture<dim> &mixture,
-                 const TwoPhaseMomentum<dim> &step,
-                 const FreeSurface<dim> &surface,
-                 const double time_step,
-                 Budget<dim> &balance);
+    /// Books the tractions of the rows over a step, once the nodes have moved; ghosts of `nodes` hold values.
+    void count_rows(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &balance);
 
     /// Adds what obstacles bear of the water's pressure in a step of `time_step` s.
     void count_pressure(const Mixture<dim> &mixture,
@@ -93,17 +84,31 @@ namespace scree
     /// @param closed_faces of the box, to the points: none is put through them
     void project_to_boundary(PointSet<dim> &points, const double farthest, const std::uint8_t closed_faces) const;
 
+    /// Tractions of the last step at the facets of all ranks, with the places of their cells. Collective.
+    std::vector<FacetTractions<dim>> tractions() const;
+
+    /// Sets those of this rank's facets from them.
+    void set_tractions(const std::vector<FacetTractions<dim>> &all);
+
   private:
-    /// What a segment knows.
+    /// Of a segment.
     struct OfSegment
     {
-      dealii::Tensor<1, dim> soil, water; // N s, out of the open: what it has given to a phase in this step
-      // What it gave in the last one, N: the searches begin with it.
-      dealii::Tensor<1, dim> predicted_soil, corrected_soil, corrected_water;
+      dealii::Tensor<1, dim> viscous; // N s, out of the open, of add_viscous_force() in this step
+      FacetTractions<dim> tractions;  // of the last solve, with which the next one begins
     };
 
-    /// Adds the step's impulses and their work; ghosts of `nodes` hold values.
-    void count(const MixtureNodes<dim> &nodes, Budget<dim> &balance) const;
+    void make_segments();
+
+    /// Books a force that soil or water has given to a segment, times its weights at the nodes, N s, and its work; what
+    /// of that is momentum. Ghosts of `field` hold values.
+    /// @param weights by node of the cell, and what of them counts as momentum
+    template <typename Weights>
+    dealii::Tensor<1, dim> count(const unsigned int segment,
+                                 const NodalField<dim> &field,
+                                 const dealii::Tensor<1, dim> &force,
+                                 const Weights &weights,
+                                 Budget<dim> &balance) const;
 
     /// Calls `act(segment)` for the segments in a cell.
     template <typename Function>
@@ -114,28 +119,18 @@ namespace scree
           act(s);
     }
 
-    /// @param base what the ground has taken in this step already, N s
-    /// @param first impulse with which the search begins, N s
-    void add_contact(const unsigned int segment,
-                     const Phase phase,
-                     const bool is_unilateral,
-                     const MixtureNodes<dim> &nodes,
-                     const double time_step,
-                     const dealii::Tensor<1, dim> &base,
-                     const dealii::Tensor<1, dim> &first);
+    void add_row(const unsigned int segment,
+                 const Phase phase,
+                 const bool is_unilateral,
+                 const double mass_of_cell,
+                 const MixtureNodes<dim> &nodes,
+                 const double time_step);
 
     /// The force of add_viscous_force() at a segment, N.
     dealii::Tensor<1, dim> viscous_force(const unsigned int segment,
                                          const NodalField<dim> &motion,
                                          const double ground_share,
                                          const double viscosity) const;
-
-    /// Finds the impulses of the contacts and takes them from the nodes. Collective.
-    /// @param wanted flow through the ground that may be left, over the largest of the step
-    void project(const MixtureNodes<dim> &nodes,
-                 const TwoPhaseMomentum<dim> &step,
-                 const double wanted,
-                 Budget<dim> &balance);
 
     /// The mean velocity over a segment, m/s.
     dealii::Tensor<1, dim> mean_velocity(const CutFacet<dim> &segment, const NodalField<dim> &field) const;
@@ -167,14 +162,12 @@ namespace scree
     const unsigned int n_obstacles; // the last of the surfaces
     const CutCells<dim> *cut_cells;
     const GroundGaps<dim> &gaps;
-    const double relative_tolerance;
-    std::optional<ContactSolver<dim>> contacts; // nothing without ground
+    GroundRows<dim> rows;
     dealii::TimerOutput &timer;
     const bool any_holds_water;
     std::vector<unsigned int> holding;         // segments along which water does not slip in this step, ascending
     std::vector<OfSegment> of_segments;        // by segment
     std::vector<unsigned int> surface_numbers; // the same
-    double largest_flow = 0;                   // of the step, m/s m^((dim-1)/2)
   };
 } // namespace scree
 

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_pressure_ground_rows_h
+#define scree_pressure_ground_rows_h
+
+#include <scree/mesh/cut_cells.h>
+#include <scree/pressure/pressure_pair.h>
+#include <scree/transfer/water_transfer.h>
+
+#include <vector>
+
+namespace scree
+{
+  /// Soil or water, of which a node has both.
+  enum class Phase : unsigned int
+  {
+    soil,
+    water
+  };
+
+  /// What soil and water give to the ground in a cell.
+  template <int dim>
+  struct FacetTractions
+  {
+    std::uint64_t cell = 0;             ///< FineCells::Cell::number
+    unsigned int part  = 0;             ///< of RigidBoundary
+    dealii::Tensor<1, dim> soil, water; ///< Pa, out of the open
+
+    /// For the state of a run.
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &cell &part &soil &water;
+    }
+  };
+
+  /// What of the motion at a row the ground constrains.
+  enum class HeldMotion : unsigned int
+  {
+    none,   ///< nothing, as it lifts off
+    across, ///< that into it
+    all     ///< all; along it as far as the compliance of its friction lets it
+  };
+
+  /// Soil or water at a facet of rigid ground: its mean velocity there must not go into the ground, and by Coulomb's
+  /// law the ground resists its sliding.
+  template <int dim>
+  struct GroundRow
+  {
+    unsigned int segment;            ///< number of the facet
+    Phase phase;                     ///< soil or water
+    bool is_unilateral;              ///< the ground presses only
+    double friction;                 ///< coefficient; 0: slips, infinite: sticks. Of a bilateral row one of these
+    double area;                     ///< m^(dim-1)
+    dealii::Tensor<1, dim> normal;   ///< unit, out of the open
+    dealii::Tensor<1, dim> flow;     ///< m^dim/s: area times the velocity beside what is admissible, without tractions
+    dealii::Tensor<1, dim> traction; ///< on the ground, Pa; holds the initial guess before the solve
+    HeldMotion held   = HeldMotion::none; ///< in the current solve
+    double compliance = 0.;               ///< flow along the ground over the traction along it, m^dim/(Pa s); 0: sticks
+
+    /// The part of a vector that the ground holds.
+    dealii::Tensor<1, dim> held_part(const dealii::Tensor<1, dim> &vector) const
+    {
+      return held == HeldMotion::none     ? dealii::Tensor<1, dim>()
+             : held == HeldMotion::across ? (vector * normal) * normal
+                                          : vector;
+    }
+
+    /// The part of a vector along the ground.
+    dealii::Tensor<1, dim> along(const dealii::Tensor<1, dim> &vector) const
+    {
+      return vector - (vector * normal) * normal;
+    }
+  };
+
+  /// The rows of a step, and their matrix N: means of the shape functions over the facets, times their areas. A row
+  /// acts on soil or water, in the variables of the pressure: a force f on soil is (f, -f) on u and q, one on water (f,
+  /// (1/n - 1) f).
+  template <int dim>
+  class GroundRows
+  {
+  public:
+    using Vectors = std::vector<dealii::Tensor<1, dim>>; ///< a vector a row
+
+    explicit GroundRows(const BackgroundGrid<dim> &grid)
+        : grid(grid)
+    {
+    }
+
+    /// Drops all rows.
+    void clear();
+
+    /// Adds a row at a facet, whose shape functions are limited by the mass of the phase at a node: where that is
+    /// light, it hardly counts. Finds the flow.
+    /// @param admissible velocity, m/s
+    /// @param least_mass at which a node counts wholly, kg
+    /// @param nodes whose ghosts hold values
+    void add(const GroundRow<dim> &row,
+             const CutFacet<dim> &facet,
+             const dealii::Tensor<1, dim> &admissible,
+             const double least_mass,
+             const MixtureNodes<dim> &nodes);
+
+    /// Adds the forces of the ground under tractions, Pa, to those on u and q, N: this rank's part of -N^T t.
+    void add_forces(const Vectors &tractions, FlowField<dim> &forces) const;
+
+    /// Adds what the ground has under a unit traction along any axis, N, to the first number of a node for soil, to the
+    /// second for water: this rank's part.
+    void add_unit_forces(FlowField<dim> &forces) const;
+
+    /// Flow into the ground at the rows, m^dim/s: N times a flow whose ghosts hold values.
+    void find_flows(const FlowField<dim> &flow, Vectors &result) const;
+
+    /// Weighted sums over the nodes of the rows of the first number of a node (soil) or the second (water).
+    /// @param power of the shape functions times area: 1, or 2 for the diagonal of N A^-1 N^T
+    void find_sums(const FlowField<dim> &values, const int power, std::vector<double> &result) const;
+
+    /// Shape function of a row at a node of its cell times the area, m^(dim-1).
+    double weight(const unsigned int row, const unsigned int i) const
+    {
+      return of_flow[row * grid.n_nodes_per_cell() + i];
+    }
+
+    std::vector<GroundRow<dim>> all; ///< with the tractions of the last solve
+
+  private:
+    const BackgroundGrid<dim> &grid;
+    std::vector<const CutFacet<dim> *> facets; // by row
+    std::vector<double> of_flow, of_discharge; // shape functions in u and in q, a row's nodes behind each other
+  };
+} // namespace scree
+
+#endif

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/pressure/ground_rows.h>
+#include <scree/tensor/vector.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree
+{
+  using namespace dealii;
+
+  template <int dim>
+  void GroundRows<dim>::clear()
+  {
+    all.clear();
+    facets.clear();
+    of_flow.clear();
+    of_discharge.clear();
+  }
+
+
+  template <int dim>
+  void GroundRows<dim>::add(const GroundRow<dim> &row,
+                            const CutFacet<dim> &facet,
+                            const Tensor<1, dim> &admissible,
+                            const double least_mass,
+                            const MixtureNodes<dim> &nodes)
+  {
+    const NodalField<dim> &field = row.phase == Phase::soil ? nodes.soil : nodes.water;
+    all.push_back(row);
+    all.back().flow = Tensor<1, dim>();
+    facets.push_back(&facet);
+    for (unsigned int i = 0; i < facet.shapes.size(); ++i)
+      {
+        const unsigned int node = grid.nodes(facet.cell)[i];
+        const double porosity   = 1. - nodes.pores[node][PoreField<dim>::grain_fraction];
+        const double mass       = field[node][NodalField<dim>::mass];
+        const bool acts         = row.phase == Phase::soil || porosity > 0.;
+        of_flow.push_back(acts ? row.area * std::min(facet.shapes[i], mass / least_mass) : 0.);
+        of_discharge.push_back(of_flow.back() * (row.phase == Phase::soil ? -1. : acts ? 1. / porosity - 1. : 0.));
+        all.back().flow += of_flow.back() * (vector_of<dim>(field[node] + NodalField<dim>::velocity) - admissible);
+      }
+  }
+
+
+  template <int dim>
+  void GroundRows<dim>::add_forces(const Vectors &tractions, FlowField<dim> &forces) const
+  {
+    const unsigned int n_nodes = grid.n_nodes_per_cell();
+    for (unsigned int k = 0, first = 0; k < all.size(); ++k, first += n_nodes)
+      {
+        const unsigned int *nodes = grid.nodes(facets[k]->cell);
+        for (unsigned int i = 0; i < n_nodes; ++i)
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              forces[nodes[i]][c] -= of_flow[first + i] * tractions[k][c];
+              forces[nodes[i]][dim + c] -= of_discharge[first + i] * tractions[k][c];
+            }
+      }
+  }
+
+
+  template <int dim>
+  void GroundRows<dim>::add_unit_forces(FlowField<dim> &forces) const
+  {
+    const unsigned int n_nodes = grid.n_nodes_per_cell();
+    for (unsigned int k = 0, first = 0; k < all.size(); ++k, first += n_nodes)
+      for (unsigned int i = 0; i < n_nodes; ++i)
+        forces[grid.nodes(facets[k]->cell)[i]][unsigned(all[k].phase)] += of_flow[first + i];
+  }
+
+
+  template <int dim>
+  void GroundRows<dim>::find_flows(const FlowField<dim> &flow, Vectors &result) const
+  {
+    const unsigned int n_nodes = grid.n_nodes_per_cell();
+    result.resize(all.size());
+    for (unsigned int k = 0, first = 0; k < all.size(); ++k, first += n_nodes)
+      {
+        const unsigned int *nodes = grid.nodes(facets[k]->cell);
+        result[k]                 = Tensor<1, dim>();
+        for (unsigned int i = 0; i < n_nodes; ++i)
+          for (unsigned int c = 0; c < dim; ++c)
+            result[k][c] += of_flow[first + i] * flow[nodes[i]][c] + of_discharge[first + i] * flow[nodes[i]][dim + c];
+      }
+  }
+
+
+  template <int dim>
+  void GroundRows<dim>::find_sums(const FlowField<dim> &values, const int power, std::vector<double> &result) const
+  {
+    const unsigned int n_nodes = grid.n_nodes_per_cell();
+    result.assign(all.size(), 0.);
+    for (unsigned int k = 0, first = 0; k < all.size(); ++k, first += n_nodes)
+      for (unsigned int i = 0; i < n_nodes; ++i)
+        result[k] +=
+            std::pow(of_flow[first + i], power) * values[grid.nodes(facets[k]->cell)[i]][unsigned(all[k].phase)];
+  }
+
+  template class GroundRows<2>;
+  template class GroundRows<3>;
+} // namespace scree
