@@ -28,12 +28,17 @@ namespace scree
         for_each_record_with_shape<n>(
             cell, cell.stride, open, grid.cell_size(), [&](const auto &point, const auto &shape) {
               const double *properties = point.properties;
+              std::array<double, n_symmetric_components<dim>> stress;
+              std::copy_n(properties + layout.stress, stress.size(), stress.begin());
+              if (layout.has_damping)
+                for (unsigned int c = 0; c < stress.size(); ++c)
+                  stress[c] += properties[layout.damping + c];
               sums.template add<method>(shape,
                                         properties[layout.mass],
                                         properties + layout.velocity,
                                         properties + layout.affine,
                                         properties[layout.volume],
-                                        matrix_of_components<dim>(properties + layout.stress));
+                                        matrix_of_components<dim>(stress.data()));
             });
         field.activate_cell(cell.cell);
         sums.scatter(grid.nodes(cell.cell), field);
@@ -222,6 +227,8 @@ namespace scree
       for (unsigned int l = 0; l < n; ++l)
         cell.properties_of(p + l)[body.layout.volume] = volume[l];
     });
+    if (body.layout.has_damping)
+      damping.begin(body, cell, n_points);
     try
       {
         body.material->update(points, motion.material_motion(time_step, body.grain_density), report);
@@ -231,6 +238,8 @@ namespace scree
         throw_fault(body, cell, n_points, motion, time_step);
         throw;
       }
+    if (body.layout.has_damping)
+      damping.finish(body, cell, n_points, motion, time_step);
   }
 
 

@@ -20,6 +20,8 @@ namespace scree
     static constexpr unsigned int stress             = left_cauchy_green + n_symmetric_components<dim>; ///< Cauchy, Pa
     static constexpr unsigned int internal_variables = stress + n_symmetric_components<dim>; ///< as the law says
     unsigned int affine;                                                                     ///< dim x dim, row-major
+    unsigned int damping;      ///< stress of the damping of the skeleton, Pa, n_symmetric_components<dim>
+    bool has_damping;          ///< whether points have it
     unsigned int start;        ///< location at the start of the run, m, dim
     bool has_start;            ///< whether points keep it
     unsigned int contacts;     ///< with each of the rigid surfaces: touching_distance() and contact_force()
@@ -30,14 +32,18 @@ namespace scree
     /// @param with_affine whether the transfer carries an affine velocity field
     /// @param with_start whether points keep where they started
     /// @param n_contacts rigid surfaces: the bed and obstacles
+    /// @param with_damping whether the skeleton is damped
     /// @param n_further slots behind the soil's own: of water that rides on the points
     PropertyLayout(const unsigned int n_internal_variables,
                    const bool with_affine,
                    const unsigned int n_further  = 0,
                    const bool with_start         = false,
-                   const unsigned int n_contacts = 0)
+                   const unsigned int n_contacts = 0,
+                   const bool with_damping       = false)
         : affine(internal_variables + n_internal_variables)
-        , start(affine + (with_affine ? dim * dim : 0))
+        , damping(affine + (with_affine ? dim * dim : 0))
+        , has_damping(with_damping)
+        , start(damping + (with_damping ? n_symmetric_components<dim> : 0))
         , has_start(with_start)
         , contacts(start + (with_start ? dim : 0))
         , n_contacts(n_contacts)
@@ -70,6 +76,7 @@ namespace scree
     std::unique_ptr<Material<dim>> material; ///< the law; holds no state of points
     PropertyLayout<dim> layout;              ///< offsets of the quantities of a point
     PointSet<dim> points;                    ///< its points on this rank
+    double damping_time   = 0;               ///< of the skeleton, s, see SkeletonDamping
     bool is_rigid      = false;              ///< its points keep their place and carry any stress
     unsigned int group = 0;                  ///< bodies of a group stick to each other and share a velocity field
     std::optional<DragLaw> drag;             ///< on water; none in a dry scene

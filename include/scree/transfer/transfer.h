@@ -6,6 +6,7 @@
 #include <scree/mesh/node_values.h>
 #include <scree/particles/point_set.h>
 #include <scree/transfer/f_bar.h>
+#include <scree/transfer/skeleton_damping.h>
 #include <scree/transfer/transfer_parameters.h>
 
 #include <stdexcept>
@@ -98,6 +99,7 @@ namespace scree
     const TransferMethod method;
     const double pic_rate;
     const FBar f_bar;
+    SkeletonDamping<dim> damping;
     BlockMotion<dim> motion; // of the points at hand; kept for its memory
   };
 } // namespace scree
