@@ -258,6 +258,8 @@ namespace scree
         if (safety.strength_factor != 1. && settling.maximum_time == 0.) // or else it acts at the release
           reduce_strength(safety.strength_factor);
         time_step.choose(has_water, transfer.courant_number(has_water), size_of_gravity(), grid.cell_size);
+        if (damps_skeleton())
+          time_step.courant_number = std::min(time_step.courant_number, stabilisation.courant_number());
         transfer.choose_rate(size_of_gravity(), wave_speed(), grid.cell_size);
         if (transfer.rate == "auto")
           transfer.pic_rate /= std::sqrt(time_step.mass_scaling);
@@ -504,6 +506,19 @@ namespace scree
     return bed.is_set() + std::count_if(obstacles.begin(), obstacles.end(), [](const ObstacleParameters &obstacle) {
              return obstacle.surface.is_set();
            });
+  }
+
+
+  bool Parameters::damps_skeleton() const
+  {
+    const auto walls = boundaries.walls(dimension);
+    return has_water && stabilisation.skeleton_damping > 0. &&
+           (bed.friction_coefficient() > 0. ||
+            std::any_of(
+                obstacles.begin(),
+                obstacles.end(),
+                [](const ObstacleParameters &obstacle) { return obstacle.surface.friction_coefficient() > 0.; }) ||
+            std::any_of(walls.begin(), walls.end(), [](const Wall &wall) { return wall.type == WallType::friction; }));
   }
 
 

@@ -178,7 +178,7 @@ namespace scree
                                          water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0,
                                          parameters.probes.displacement || parameters.settling.maximum_time > 0.,
                                          parameters.has_water ? 0 : parameters.n_rigid_surfaces(),
-                                         std::getenv("THETA") != nullptr);
+                                         parameters.damps_skeleton());
         bodies.emplace_back(body.name,
                             body.bulk_density(),
                             body.seeding.grain_density,
@@ -186,8 +186,6 @@ namespace scree
                             layout,
                             grid.triangulation(),
                             grid.mapping());
-        if (std::getenv("THETA"))
-          bodies.back().damping_time = std::atof(std::getenv("THETA"));
         bodies.back().is_rigid       = body.is_rigid();
         bodies.back().group          = groups.of_body[bodies.size() - 1];
         bodies.back().spacing        = grid.cell_size() / body.seeding.points_per_cell;

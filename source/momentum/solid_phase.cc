@@ -82,12 +82,12 @@ namespace scree
 
 
   template <int dim>
-  void SolidPhase<dim>::to_points(const double time_step, StepReport<dim> &report)
+  void SolidPhase<dim>::to_points(const double time_step, const double damping_time, StepReport<dim> &report)
   {
     for (auto &body : bodies)
       if (moves(body))
         {
-          const MotionReport motion = transfer.to_points(body, field, time_step);
+          const MotionReport motion = transfer.to_points(body, field, time_step, damping_time);
           report.speeds.include_wave(
               body.wave_speed(motion.material.largest_bulk_modulus, motion.material.largest_compression));
           report.speeds.include_point(motion.largest_speed);

@@ -61,16 +61,6 @@ namespace scree
 
 
   template <int dim>
-  void GroundRows<dim>::add_unit_forces(FlowField<dim> &forces) const
-  {
-    const unsigned int n_nodes = grid.n_nodes_per_cell();
-    for (unsigned int k = 0, first = 0; k < all.size(); ++k, first += n_nodes)
-      for (unsigned int i = 0; i < n_nodes; ++i)
-        forces[grid.nodes(facets[k]->cell)[i]][unsigned(all[k].phase)] += of_flow[first + i];
-  }
-
-
-  template <int dim>
   void GroundRows<dim>::find_flows(const FlowField<dim> &flow, Vectors &result) const
   {
     const unsigned int n_nodes = grid.n_nodes_per_cell();
@@ -87,14 +77,14 @@ namespace scree
 
 
   template <int dim>
-  void GroundRows<dim>::find_sums(const FlowField<dim> &values, const int power, std::vector<double> &result) const
+  void GroundRows<dim>::find_squares(const FlowField<dim> &values, std::vector<double> &result) const
   {
     const unsigned int n_nodes = grid.n_nodes_per_cell();
     result.assign(all.size(), 0.);
     for (unsigned int k = 0, first = 0; k < all.size(); ++k, first += n_nodes)
       for (unsigned int i = 0; i < n_nodes; ++i)
         result[k] +=
-            std::pow(of_flow[first + i], power) * values[grid.nodes(facets[k]->cell)[i]][unsigned(all[k].phase)];
+            of_flow[first + i] * of_flow[first + i] * values[grid.nodes(facets[k]->cell)[i]][unsigned(all[k].phase)];
   }
 
   template class GroundRows<2>;

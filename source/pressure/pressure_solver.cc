@@ -88,7 +88,7 @@ namespace scree
       else
         storage_of_number[i] = scale_of_number[i] = 0.;
     if (has_rows)
-      schur.find_diagonal_of_rows(diagonal_of_row, sum_of_row);
+      schur.find_diagonal_of_rows(diagonal_of_row);
   }
 
 
@@ -351,7 +351,10 @@ namespace scree
   template <int dim>
   double PressureSolver<dim>::choose_friction()
   {
-    double change = 0.;
+    // A row responds by more than its diagonal. By the sum of its row, those of small facets swing between stick and
+    // slip.
+    constexpr double part_of_response = 0.3;
+    double change                     = 0.;
     for (unsigned int k = 0; k < source.of_rows.size(); ++k)
       {
         GroundRow<dim> &row = (*rows)[k];
@@ -361,10 +364,11 @@ namespace scree
         const Tensor<1, dim> &traction = solution.of_rows[k];
         const Tensor<1, dim> along     = row.along(traction),
                              slip      = row.along(residual.of_rows[k]) + row.compliance * along;
+        const double step              = part_of_response * diagonal_of_row[k];
         const double available         = row.friction * (traction * row.normal);
-        const double needed            = (along + slip / sum_of_row[k]).norm();
+        const double needed            = (along + slip / step).norm();
         const double before            = row.compliance;
-        row.compliance                 = needed > available ? sum_of_row[k] * (needed / available - 1.) : 0.;
+        row.compliance                 = needed > available ? step * (needed / available - 1.) : 0.;
         change += row.held == HeldMotion::all ? std::pow(row.compliance - before, 2) * along.norm_square()
                                               : slip.norm_square();
         row.held = HeldMotion::all;

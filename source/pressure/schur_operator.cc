@@ -188,28 +188,16 @@ namespace scree
 
 
   template <int dim>
-  void SchurOperator<dim>::find_diagonal_of_rows(std::vector<double> &diagonal, std::vector<double> &sums)
+  void SchurOperator<dim>::find_diagonal_of_rows(std::vector<double> &diagonal)
   {
-    constexpr unsigned int soil = unsigned(Phase::soil), water = unsigned(Phase::water);
     clear_flow();
-    rows->add_unit_forces(flow);
-    flow.add_contributions();
     for (const PressedNode<dim> &node : nodes->all)
       {
-        double *values       = flow[node.node];
-        const double of_soil = values[soil], of_water = values[water];
-        values[soil]  = time_step * (node.mobility.soil * of_soil + node.mobility.other * of_water);
-        values[water] = time_step * (node.mobility.other * of_soil + node.mobility.water * of_water);
+        flow[node.node][unsigned(Phase::soil)]  = time_step * node.mobility.soil;
+        flow[node.node][unsigned(Phase::water)] = time_step * node.mobility.water;
       }
     flow.update_ghosts();
-    rows->find_sums(flow, 1, sums);
-    for (const PressedNode<dim> &node : nodes->all)
-      {
-        flow[node.node][soil]  = time_step * node.mobility.soil;
-        flow[node.node][water] = time_step * node.mobility.water;
-      }
-    flow.update_ghosts();
-    rows->find_sums(flow, 2, diagonal);
+    rows->find_squares(flow, diagonal);
   }
 
 

@@ -196,7 +196,7 @@ namespace scree
       scene.move_obstacles(time_step); // Points in water are put back to where the ground is then.
     try
       {
-        scheme->to_points(time_step, step);
+        scheme->to_points(time_step, skeleton_damping_time(), step);
       }
     catch (const PointFault &fault)
       {

@@ -14,7 +14,7 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  template <int n, TransferMethod method>
+  template <int n, TransferMethod method, bool is_damped>
   void Transfer<dim>::add_points(const SoilBody<dim> &body, NodalField<dim> &field) const
   {
     const auto &layout = body.layout;
@@ -30,7 +30,7 @@ namespace scree
               const double *properties = point.properties;
               std::array<double, n_symmetric_components<dim>> stress;
               std::copy_n(properties + layout.stress, stress.size(), stress.begin());
-              if (layout.has_damping)
+              if constexpr (is_damped)
                 for (unsigned int c = 0; c < stress.size(); ++c)
                   stress[c] += properties[layout.damping + c];
               sums.template add<method>(shape,
@@ -49,15 +49,14 @@ namespace scree
   template <int dim>
   void Transfer<dim>::to_grid(const SoilBody<dim> &body, NodalField<dim> &field) const
   {
+    const auto choose_damping = [&](auto n, auto method) {
+      return body.layout.has_damping ? add_points<n, method, true>(body, field)
+                                     : add_points<n, method, false>(body, field);
+    };
     const auto dispatch = [&](auto n) {
-      switch (method)
-        {
-        case TransferMethod::tpic:
-        case TransferMethod::aflip: // They differ on the way back only.
-          return add_points<n, TransferMethod::tpic>(body, field);
-        default:
-          return add_points<n, TransferMethod::flip>(body, field);
-        }
+      if (carries_affine(method)) // TPIC and AFLIP differ on the way back only.
+        return choose_damping(n, std::integral_constant<TransferMethod, TransferMethod::tpic>());
+      return choose_damping(n, std::integral_constant<TransferMethod, TransferMethod::flip>());
     };
     if (grid.n_nodes_1d() == 2)
       dispatch(std::integral_constant<int, 2>());
@@ -182,7 +181,10 @@ namespace scree
 
   template <int dim>
   template <int n, TransferMethod method>
-  MotionReport Transfer<dim>::move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step)
+  MotionReport Transfer<dim>::move_points(SoilBody<dim> &body,
+                                          const NodalField<dim> &field,
+                                          const double time_step,
+                                          const double damping_time)
   {
     const auto &cells = body.points.cells();
     const double keep = kept_velocity(method, pic_rate, time_step);
@@ -202,7 +204,7 @@ namespace scree
             move_cell<n, method>(body, *cell, field, time_step, keep, first, largest);
             apply_f_bar(f_bar, first, body.material_points(*cell), motion);
           }
-        update_state(body, *begin, n_points, time_step, report.material);
+        update_state(body, *begin, n_points, time_step, damping_time, report.material);
         costs.finish_cells(begin, end, n_points);
       }
     report.largest_speed = largest.speed();
@@ -215,6 +217,7 @@ namespace scree
                                    const CellPoints<dim> &cell,
                                    const unsigned int n_points,
                                    const double time_step,
+                                   const double damping_time,
                                    UpdateReport &report)
   {
     // The slots of cells lie one behind the other.
@@ -239,22 +242,25 @@ namespace scree
         throw;
       }
     if (body.layout.has_damping)
-      damping.finish(body, cell, n_points, motion, time_step);
+      damping.finish(body, cell, n_points, motion, damping_time / time_step);
   }
 
 
   template <int dim>
-  MotionReport Transfer<dim>::to_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step)
+  MotionReport Transfer<dim>::to_points(SoilBody<dim> &body,
+                                        const NodalField<dim> &field,
+                                        const double time_step,
+                                        const double damping_time)
   {
     const auto dispatch = [&](auto n) {
       switch (method)
         {
         case TransferMethod::flip:
-          return move_points<n, TransferMethod::flip>(body, field, time_step);
+          return move_points<n, TransferMethod::flip>(body, field, time_step, damping_time);
         case TransferMethod::aflip:
-          return move_points<n, TransferMethod::aflip>(body, field, time_step);
+          return move_points<n, TransferMethod::aflip>(body, field, time_step, damping_time);
         default:
-          return move_points<n, TransferMethod::tpic>(body, field, time_step);
+          return move_points<n, TransferMethod::tpic>(body, field, time_step, damping_time);
         }
     };
     if (grid.n_nodes_1d() == 2)

@@ -90,6 +90,14 @@ namespace scree
                       "standard: the mean volume change of the cell determines the stress. modified: in addition, the "
                       "elastic volume strain of the points is averaged, and their volume follows the mean.",
                       Patterns::Selection("none|standard|modified"));
+    prm.add_parameter("Skeleton damping",
+                      skeleton_damping,
+                      "Kelvin-Voigt damping of the elastic skeleton of soil in water, where ground or walls with "
+                      "friction are: its time x over cell size per wave speed, against flutter of the effective stress "
+                      "that makes stiff undrained layers stick. 0.5 serves layers of up to six cells; x of "
+                      "thickness/(12 h) serves thicker ones. The Courant number is then at most sqrt(1 + x^2) - x. "
+                      "0: none.",
+                      Patterns::Double(0, 10));
     prm.leave_subsection();
   }
 

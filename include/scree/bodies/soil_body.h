@@ -76,7 +76,6 @@ namespace scree
     std::unique_ptr<Material<dim>> material; ///< the law; holds no state of points
     PropertyLayout<dim> layout;              ///< offsets of the quantities of a point
     PointSet<dim> points;                    ///< its points on this rank
-    double damping_time   = 0;               ///< of the skeleton, s, see SkeletonDamping
     bool is_rigid      = false;              ///< its points keep their place and carry any stress
     unsigned int group = 0;                  ///< bodies of a group stick to each other and share a velocity field
     std::optional<DragLaw> drag;             ///< on water; none in a dry scene

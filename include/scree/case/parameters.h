@@ -172,6 +172,9 @@ namespace scree
     /// The bed, and the obstacles that are set.
     unsigned int n_rigid_surfaces() const;
 
+    /// Whether the skeleton of the soil is damped: in water, where it may rub against ground or walls.
+    bool damps_skeleton() const;
+
     /// The body of this name; null if there is none.
     const BodyParameters *find_body(const std::string &name) const;
 

@@ -46,7 +46,8 @@ namespace scree
     }
 
     /// Moves bodies and loads after the solve of a step, and updates stress and state.
-    void to_points(const double time_step, StepReport<dim> &report);
+    /// @param damping_time of the skeleton, s, see SkeletonDamping
+    void to_points(const double time_step, const double damping_time, StepReport<dim> &report);
 
     /// Appends the points of all bodies, then the markers of the loads.
     void append_point_sets(std::vector<PointSet<dim> *> &sets);

@@ -103,16 +103,12 @@ namespace scree
     /// Adds the forces of the ground under tractions, Pa, to those on u and q, N: this rank's part of -N^T t.
     void add_forces(const Vectors &tractions, FlowField<dim> &forces) const;
 
-    /// Adds what the ground has under a unit traction along any axis, N, to the first number of a node for soil, to the
-    /// second for water: this rank's part.
-    void add_unit_forces(FlowField<dim> &forces) const;
-
     /// Flow into the ground at the rows, m^dim/s: N times a flow whose ghosts hold values.
     void find_flows(const FlowField<dim> &flow, Vectors &result) const;
 
-    /// Weighted sums over the nodes of the rows of the first number of a node (soil) or the second (water).
-    /// @param power of the shape functions times area: 1, or 2 for the diagonal of N A^-1 N^T
-    void find_sums(const FlowField<dim> &values, const int power, std::vector<double> &result) const;
+    /// Sums over the nodes of the rows of the squared shape functions times area, times the first number of a node
+    /// (soil) or the second (water).
+    void find_squares(const FlowField<dim> &values, std::vector<double> &result) const;
 
     /// Shape function of a row at a node of its cell times the area, m^(dim-1).
     double weight(const unsigned int row, const unsigned int i) const

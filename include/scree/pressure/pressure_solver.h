@@ -155,9 +155,9 @@ namespace scree
     std::vector<double> storage_of_number; // on the diagonal, of owned numbers
     std::vector<double> scale_of_number;   // of the preconditioner, at least 1; see assemble()
 
-    std::vector<GroundRow<dim>> *rows = nullptr;     // of a solve; null: none
-    std::vector<double> diagonal_of_row, sum_of_row; // of dt N A^-1 N^T, m^dim/(Pa s)
-    std::vector<char> is_held;                       // by owned number: at the least pressure
+    std::vector<GroundRow<dim>> *rows = nullptr; // of a solve; null: none
+    std::vector<double> diagonal_of_row;         // of dt N A^-1 N^T, m^dim/(Pa s)
+    std::vector<char> is_held;                   // by owned number: at the least pressure
     Joint source, solution, residual, scratch;
     // Of iterate(): what is left of the source, that preconditioned, that times S; the step's direction, that times S.
     Joint remainder, preconditioned, product, direction, direction_product;

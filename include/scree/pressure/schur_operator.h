@@ -106,8 +106,8 @@ namespace scree
     /// itself. To be called after assemble(). Collective.
     void find_diagonal(VertexVector &target);
 
-    /// Diagonal of dt N A^-1 N^T, and its sums of rows, m^dim/(Pa s), as if no walls held the nodes. Collective.
-    void find_diagonal_of_rows(std::vector<double> &diagonal, std::vector<double> &sums);
+    /// Diagonal of dt N A^-1 N^T, m^dim/(Pa s), as if no walls held the nodes. Collective.
+    void find_diagonal_of_rows(std::vector<double> &diagonal);
 
     /// Sets `target` to T^T (B u - c - H p), m^3/s, with c of the ground that is not yet reached or moves.
     /// Collective.

@@ -266,6 +266,15 @@ namespace scree
       results.complete();
     }
 
+    /// Of the damping of the skeleton, s: it follows the wave speed, as the step does.
+    double skeleton_damping_time() const
+    {
+      const double speed = control.speeds_of_points().wave / std::sqrt(parameters.time_step.mass_scaling);
+      return parameters.damps_skeleton() && speed > 0.
+                 ? parameters.stabilisation.skeleton_damping * scene.grid.cell_size() / speed
+                 : 0.;
+    }
+
     template <class Archive>
     void serialize_state(Archive &archive)
     {

@@ -53,11 +53,11 @@ namespace scree
           std::next(groups.begin(), body.group)->wall_gaps.add(body.points, body.spacing);
     }
     void solve(const double time_step, StepReport<dim> &report) override;
-    void to_points(const double time_step, StepReport<dim> &report) override
+    void to_points(const double time_step, const double damping_time, StepReport<dim> &report) override
     {
       const TimedPart part(timer, TimerSection::stress);
       for (Group &group : groups)
-        group.soil.to_points(time_step, report);
+        group.soil.to_points(time_step, damping_time, report);
     }
     NodalForces nodal_forces(const double time_step) const override
     {

@@ -64,7 +64,8 @@ namespace scree
     virtual void solve(const double time_step, StepReport<dim> &report) = 0;
 
     /// Carries what the nodes have found to the points and moves them; they are not sorted yet. Collective.
-    virtual void to_points(const double time_step, StepReport<dim> &report) = 0;
+    /// @param damping_time of the skeleton, s, see SkeletonDamping
+    virtual void to_points(const double time_step, const double damping_time, StepReport<dim> &report) = 0;
 
     /// All sets of points, in a fixed order.
     virtual std::vector<PointSet<dim> *> point_sets() = 0;

@@ -56,11 +56,11 @@ namespace scree
     }
     void to_grid(const double time) override;
     void solve(const double time_step, StepReport<dim> &report) override;
-    void to_points(const double time_step, StepReport<dim> &report) override
+    void to_points(const double time_step, const double damping_time, StepReport<dim> &report) override
     {
       {
         const TimedPart part(timer, TimerSection::stress);
-        soil.to_points(time_step, report);
+        soil.to_points(time_step, damping_time, report);
       }
       if (!holds_water)
         move_water(time_step, report);

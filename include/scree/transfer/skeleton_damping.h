@@ -11,7 +11,7 @@
 namespace scree
 {
   /// Kelvin-Voigt damping of the skeleton of soil in water: the stress theta (d sigma'/dt - W sigma' + sigma' W), with
-  /// the spin W and the damping time theta = SoilBody::damping_time, acts beside the effective stress sigma'.
+  /// the spin W and the damping time theta, acts beside the effective stress sigma'.
   ///
   /// Without it, Coulomb friction on the effective stress of an undrained elastic layer flutters: waves of the normal
   /// stress grow until the layer sticks. As the rate is that of the elastic stress, steady plastic flow is not damped.
@@ -27,17 +27,17 @@ namespace scree
         std::copy_n(cell.properties_of(p) + body.layout.stress, n, &before[std::size_t(n) * p]);
     }
 
-    /// Sets the damping stress from what the law has made of it in the step, s.
+    /// Sets the damping stress from what the law has made of the stress in the step.
+    /// @param rate damping time over time step
     void finish(const SoilBody<dim> &body,
                 const CellPoints<dim> &cell,
                 const unsigned int n_points,
                 const BlockMotion<dim> &motion,
-                const double time_step) const
+                const double rate) const
     {
-      const double rate = body.damping_time / time_step; // theta / dt
       for (unsigned int p = 0; p < n_points; ++p)
         {
-          const double *old = &before[std::size_t(n) * p];
+          const double *old  = &before[std::size_t(n) * p];
           double *properties = cell.properties_of(p), *now = properties + body.layout.stress,
                  *damping = properties + body.layout.damping;
           for (unsigned int c = 0; c < n; ++c)

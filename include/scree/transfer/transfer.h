@@ -62,15 +62,20 @@ namespace scree
 
     /// One pass over the cells: velocity, position, volume, F-bar, stress and state of the points at the end of a step
     /// of `time_step` s, from the nodes' end-of-step velocity and its change. The points are not sorted yet.
-    MotionReport to_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step);
+    /// @param damping_time of the skeleton, s; read if the points have a stress of damping
+    MotionReport to_points(SoilBody<dim> &body,
+                           const NodalField<dim> &field,
+                           const double time_step,
+                           const double damping_time = 0.);
 
   private:
-    template <int n, TransferMethod method>
+    template <int n, TransferMethod method, bool is_damped>
     void add_points(const SoilBody<dim> &body, NodalField<dim> &field) const;
 
     /// to_points() for cells of n nodes along each axis.
     template <int n, TransferMethod method>
-    MotionReport move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step);
+    MotionReport
+    move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step, const double damping_time);
 
     /// Velocity, place and affine field of a cell's points; into `motion` from number `first` on what the rest needs.
     ///
@@ -90,6 +95,7 @@ namespace scree
                       const CellPoints<dim> &cell,
                       const unsigned int n_points,
                       const double time_step,
+                      const double damping_time,
                       UpdateReport &report);
 
     /// Points whose stress is updated in one go, unless a cell has more.

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <cmath>
 #include <string>
 
 namespace scree
@@ -82,13 +83,21 @@ namespace scree
   /// Subsection Stabilisation.
   struct StabilisationParameters
   {
-    std::string f_bar = "modified"; ///< none | standard | modified
+    std::string f_bar       = "modified"; ///< none | standard | modified
+    double skeleton_damping = 0.5;        ///< damping time over cell size per wave speed, see SkeletonDamping
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Entry `F-bar` as an enum.
     FBar f_bar_kind() const;
+
+    /// Largest Courant number at which the damping, explicit as the stress, is stable: dt^2 + 2 x dt = 1 in units of
+    /// cell size per wave speed.
+    double courant_number() const
+    {
+      return std::sqrt(1. + skeleton_damping * skeleton_damping) - skeleton_damping;
+    }
   };
 } // namespace scree
 
