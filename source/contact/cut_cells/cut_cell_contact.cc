@@ -168,9 +168,8 @@ namespace scree
     const CutFacet<dim> &facet = cut_cells->segments()[segment];
     const OfSegment &last      = of_segments[segment];
     GroundRow<dim> row{};
-    row.segment       = segment;
-    row.phase         = phase;
-    row.is_unilateral = is_unilateral;
+    row.segment = segment;
+    row.phase   = phase;
     if (phase == Phase::soil)
       row.friction = surface_of(segment).friction_coefficient;
     else if (std::binary_search(holding.begin(), holding.end(), segment))
@@ -180,7 +179,9 @@ namespace scree
     const Tensor<1, dim> of_ground = cut_cells->velocity(facet);
     const double approach =
         (mean_velocity(facet, phase == Phase::soil ? nodes.soil : nodes.water) - of_ground) * row.normal;
-    const Tensor<1, dim> admissible = of_ground + gaps.allowed_approach(segment, approach, time_step) * row.normal;
+    const double allowed            = gaps.allowed_approach(segment, approach, time_step);
+    const Tensor<1, dim> admissible = of_ground + allowed * row.normal;
+    row.is_unilateral               = is_unilateral || allowed > 0.; // what has not arrived does not stick yet
     row.traction                    = phase == Phase::soil ? last.tractions.soil : last.tractions.water;
     rows.add(row, facet, admissible, closures::least_inertia * mass_of_cell, nodes);
   }
