@@ -121,18 +121,23 @@ namespace scree
 
 
   template <int dim>
-  double TwoPhaseMomentum<dim>::least_inertia(const PorePressure<dim> &pressure, const unsigned int node) const
+  double TwoPhaseMomentum<dim>::pressed_mass(const PorePressure<dim> &pressure,
+                                             const unsigned int node,
+                                             const double mass) const
   {
-    return closures::least_inertia * water_density * pressure.filled_volume(node);
+    const double least = closures::least_inertia * water_density * pressure.filled_volume(node);
+    return mass > 0. ? std::max(mass, least) : 0.;
   }
 
 
   template <int dim>
-  DragBlock<dim> TwoPhaseMomentum<dim>::pressed_block_at(const MixtureNodes<dim> &nodes, const unsigned int node) const
+  DragBlock<dim> TwoPhaseMomentum<dim>::pressed_block_at(const MixtureNodes<dim> &nodes,
+                                                         const PorePressure<dim> &pressure,
+                                                         const unsigned int node) const
   {
     DragBlock<dim> pair = drag_block_at(nodes, node);
-    pair.soil_mass *= nodes.pores[node][PoreField<dim>::pressed_share];
-    pair.water_mass *= nodes.pores[node][PoreField<dim>::pressed_share];
+    pair.soil_mass      = pressed_mass(pressure, node, pair.soil_mass);
+    pair.water_mass     = pressed_mass(pressure, node, pair.water_mass);
     return pair;
   }
 
@@ -167,7 +172,6 @@ namespace scree
   template <int dim>
   void TwoPhaseMomentum<dim>::find_flux_inertia(const MixtureNodes<dim> &nodes,
                                                 const NodalField<dim> &excess,
-                                                const PorePressure<dim> &pressure,
                                                 const double time_step)
   {
     for (const unsigned int node : nodes.pores.active_nodes())
@@ -183,10 +187,8 @@ namespace scree
         const double square  = inverse * inverse;
         pore[PoreField<dim>::grain_fraction] = mass > 0. ? 1. - 1. / inverse : 1.;
         pore[PoreField<dim>::coupling]       = has_both ? std::max(inertia / square - mass, 0.) : 0.;
-        const double lighter                 = std::min(mass, soil[Field<dim>::mass]);
-        const double of_light                = has_both ? std::max(least_inertia(pressure, node) - lighter, 0.) : 0.;
-        pore[PoreField<dim>::drag]           = pore[PoreField<dim>::coupling] +
-                                     (has_both ? time_step * pore[PoreField<dim>::drag] / square + of_light : 0.);
+        pore[PoreField<dim>::drag] =
+            pore[PoreField<dim>::coupling] + (has_both ? time_step * pore[PoreField<dim>::drag] / square : 0.);
         pore[PoreField<dim>::inertial_drag] *= has_both ? time_step / (square * inverse) : 0.;
         if (has_both)
           for (unsigned int c = 0; c < dim; ++c)
@@ -210,7 +212,10 @@ namespace scree
       {
         if (is_empty(nodes, node))
           continue;
-        const DragBlock<dim> pair = pressed_block_at(nodes, node);
+        const DragBlock<dim> pair = pressed_block_at(nodes, pressure, node);
+        double *pore              = nodes.pores[node];
+        pore[PoreField<dim>::pressed_soil] = pair.soil_mass > 0. ? pair.soil_mass / nodes.soil[node][Field<dim>::mass] : 1.;
+        pore[PoreField<dim>::pressed_water] = pair.water_mass > 0. ? pair.water_mass / nodes.water[node][Field<dim>::mass] : 1.;
         pressed.all.push_back({ node,
                                 1. - nodes.pores[node][PoreField<dim>::grain_fraction],
                                 drag_mobility(pair.soil_mass, pair.water_mass, pair.drag),
@@ -235,17 +240,12 @@ namespace scree
           continue;
         const PressedNode<dim> pressed{ node, 1. - nodes.pores[node][PoreField<dim>::grain_fraction], {}, 0 };
         const SoilAndWater<dim> of_phases = PressedNodes<dim>::forces(pressed, impulses[node]);
-        const double mass                 = nodes.soil[node][Field<dim>::mass] + nodes.water[node][Field<dim>::mass];
-        const double share                = nodes.pores[node][PoreField<dim>::pressed_share] =
-            std::max(least_inertia(pressure, node) / mass, 1.);
-        const auto add = [&](double *values, const Tensor<1, dim> &impulse) {
-          for (unsigned int c = 0; c < dim; ++c) // The motion is that of the pressed mass.
-            values[Field<dim>::force + c] = (values[Field<dim>::force + c] + impulse[c] / time_step) / share;
+        const auto add = [&](double *values, const Tensor<1, dim> &impulse) { // the motion is that of the pressed mass
+          if (const double mass = values[Field<dim>::mass]; mass > 0.)
+            add_to(values + Field<dim>::force, mass / pressed_mass(pressure, node, mass) / time_step * impulse);
         };
-        if (nodes.soil[node][Field<dim>::mass] > 0.)
-          add(nodes.soil[node], of_phases.soil);
-        if (nodes.water[node][Field<dim>::mass] > 0.)
-          add(nodes.water[node], of_phases.water);
+        add(nodes.soil[node], of_phases.soil);
+        add(nodes.water[node], of_phases.water);
       }
   }
 
@@ -412,7 +412,7 @@ namespace scree
         const unsigned int node = pressed.node;
         double *of_soil = nodes.soil[node], *of_water = nodes.water[node];
         const SoilAndWater<dim> impulses = PressedNodes<dim>::forces(pressed, of_flow[node]);
-        const DragBlock<dim> pair        = pressed_block_at(nodes, node);
+        const DragBlock<dim> pair        = pressed_block_at(nodes, pressure, node);
         SoilAndWater<dim> change         = pair.solve(impulses);
         const SoilAndWater<dim> before{ velocity_at_start<dim>(of_soil), velocity_at_start<dim>(of_water) };
         const Tensor<1, dim> soil_predicted = vector_of<dim>(of_soil + Field<dim>::velocity);

@@ -104,7 +104,7 @@ namespace scree
       return wall_gaps.holds_water(node, face);
     };
     pressure.find_pair(mixture, volume_of_water, holds, time_step);
-    momentum.find_flux_inertia(nodes, excess, pressure, time_step);
+    momentum.find_flux_inertia(nodes, excess, time_step);
     momentum.add_pressure_forces(nodes, pressure, time_step);
   }
 

@@ -29,14 +29,9 @@ namespace scree
     /// Before predict(): finds n_i, coupling and drag of the step at the pores, and
     /// the momentum of soil and water from those of the mixture and of the discharge.
     /// @param excess see WaterTransfer::to_grid(), summed over ranks as `nodes`
-    /// @param pressure whose cells are known
-    void find_flux_inertia(const MixtureNodes<dim> &nodes,
-                           const NodalField<dim> &excess,
-                           const PorePressure<dim> &pressure,
-                           const double time_step);
+    void find_flux_inertia(const MixtureNodes<dim> &nodes, const NodalField<dim> &excess, const double time_step);
 
-    /// Adds the force of the old pressure to the sums of soil and water. Where both are light, all forces act on what
-    /// they count as (PoreField::pressed_share).
+    /// Adds the force of the old pressure to the sums of soil and water.
     void add_pressure_forces(const MixtureNodes<dim> &nodes, PorePressure<dim> &pressure, const double time_step) const;
 
     /// The nodes as the pressure sees them, after predict().
@@ -65,13 +60,13 @@ namespace scree
     static void add(const MixtureNodes<dim> &nodes, const unsigned int node, SoilAndWater<dim> change);
 
   private:
-    /// Inertia that the pressure moves at least at an owned node, kg: a part of that of the water that would fill what
-    /// B integrates over (closures::least_inertia). A phase that is lighter shares its motion with the other by a drag
-    /// of what it lacks; where both are, they count as more.
-    double least_inertia(const PorePressure<dim> &pressure, const unsigned int node) const;
+    /// Mass of a phase as the pressure moves it at an owned node, kg: at least a part of the water that would fill what
+    /// B integrates over (closures::least_inertia); 0 of an absent phase.
+    double pressed_mass(const PorePressure<dim> &pressure, const unsigned int node, const double mass) const;
 
     /// Soil and water at an owned node, as the pressure moves them.
-    DragBlock<dim> pressed_block_at(const MixtureNodes<dim> &nodes, const unsigned int node) const;
+    DragBlock<dim>
+    pressed_block_at(const MixtureNodes<dim> &nodes, const PorePressure<dim> &pressure, const unsigned int node) const;
 
     /// Of what holds soil and water at the node, m/s.
     SoilAndWater<dim> velocity_of_walls(const unsigned int node) const;

@@ -27,7 +27,7 @@ namespace scree
 
   /// Pores at the nodes of the velocity: sums at first, then what the step makes of them.
   template <int dim>
-  class PoreField : public NodeValues<dim, 5>
+  class PoreField : public NodeValues<dim, 6>
   {
   public:
     static constexpr unsigned int drag          = 0; ///< of slow flow over q, N s/m; then C + e of the step, kg
@@ -43,12 +43,12 @@ namespace scree
     /// slip between soil and water, sum m_p phi_i (n_i/n_p)^2 - m_i, kg
     static constexpr unsigned int coupling = 3;
 
-    /// What soil and water count as where the pressure moves them, over their mass: 1, or more where both are light, -
-    static constexpr unsigned int pressed_share = 4;
+    /// What soil and water count as where the pressure moves them, over their mass: 1, or more where they are light, -
+    static constexpr unsigned int pressed_soil = 4, pressed_water = 5;
 
     /// Makes room on the nodes of the grid, which must live on.
     explicit PoreField(const BackgroundGrid<dim> &grid)
-        : NodeValues<dim, 5>(grid.numbering())
+        : NodeValues<dim, 6>(grid.numbering())
     {
     }
   };
