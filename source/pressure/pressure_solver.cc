@@ -164,22 +164,26 @@ namespace scree
         keep_held_motion(product.of_rows);
 
         double rr = 0, rz = 0, zw = 0, rw = 0, ww = 0, rs = 0, ws = 0, ss = 0;
-        const auto add = [&](const auto &r, const auto &z, const auto &w, const auto &s) {
-          rr += r * r;
+        const auto add = [&](const double weight, const auto &r, const auto &z, const auto &w, const auto &s) {
           rz += r * z;
           zw += z * w;
-          rw += r * w;
-          ww += w * w;
-          rs += r * s;
-          ws += w * s;
-          ss += s * s;
+          rr += weight * (r * r);
+          rw += weight * (r * w);
+          ww += weight * (w * w);
+          rs += weight * (r * s);
+          ws += weight * (w * s);
+          ss += weight * (s * s);
         };
         const double *r = remainder.of_vertices.begin(), *z = preconditioned.of_vertices.begin(),
                      *w = product.of_vertices.begin(), *s = direction_product.of_vertices.begin();
         for (unsigned int i = 0; i < n_owned; ++i)
-          add(r[i], z[i], w[i], s[i]);
+          add(1., r[i], z[i], w[i], s[i]);
         for (unsigned int k = 0; k < n_rows; ++k)
-          add(remainder.of_rows[k], preconditioned.of_rows[k], product.of_rows[k], direction_product.of_rows[k]);
+          add(weight_of_rows,
+              remainder.of_rows[k],
+              preconditioned.of_rows[k],
+              product.of_rows[k],
+              direction_product.of_rows[k]);
         std::array<double, 8> sums{ { rr, rz, zw, rw, ww, rs, ws, ss } };
         Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
                             grid.communicator(),
@@ -224,7 +228,7 @@ namespace scree
     for (const double value : vector.of_vertices)
       square += value * value;
     for (const Tensor<1, dim> &value : vector.of_rows)
-      square += value.norm_square();
+      square += weight_of_rows * value.norm_square();
     return square;
   }
 
@@ -344,7 +348,7 @@ namespace scree
             traction       = Tensor<1, dim>();
           }
       }
-    return change;
+    return weight_of_rows * change;
   }
 
 
@@ -373,7 +377,31 @@ namespace scree
                                               : slip.norm_square();
         row.held = HeldMotion::all;
       }
-    return change;
+    return weight_of_rows * change;
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::set_tolerance(const double relative)
+  {
+    std::array<double, 4> squares{}; // at vertices and rows, of `scratch` and `source`
+    for (const bool of_source : { false, true })
+      {
+        const Joint &flow = of_source ? source : scratch;
+        for (const double value : flow.of_vertices)
+          squares[of_source] += value * value;
+        for (unsigned int k = 0; k < flow.of_rows.size(); ++k)
+          squares[2 + of_source] += (*rows)[k].friction > 0. ? flow.of_rows[k].norm_square()
+                                                             : std::pow(flow.of_rows[k] * (*rows)[k].normal, 2);
+      }
+    Utilities::MPI::sum(ArrayView<const double>(squares.data(), squares.size()),
+                        grid.communicator(),
+                        ArrayView<double>(squares.data(), squares.size()));
+    const double of_vertices = std::max(squares[0], squares[1]), of_rows = std::max(squares[2], squares[3]);
+    constexpr double coarser = 10.; // than at the vertices; tractions follow p
+    // Rows count by their own flow: water without pressure at the ground is a small part of all, and has to stop, too.
+    weight_of_rows = of_vertices > 0. && of_rows > 0. ? of_vertices / (coarser * coarser * of_rows) : 1.;
+    tolerance      = relative * std::sqrt(of_vertices > 0. ? of_vertices : of_rows);
   }
 
 
@@ -393,10 +421,7 @@ namespace scree
     take(change, solution.of_vertices);
     if (rows)
       start_rows();
-    std::array<double, 2> squares{ { local_square(scratch), local_square(source) } };
-    Utilities::MPI::sum(
-        ArrayView<const double>(squares.data(), 2), grid.communicator(), ArrayView<double>(squares.data(), 2));
-    tolerance = task.relative_tolerance * std::sqrt(std::max(squares[0], squares[1]));
+    set_tolerance(task.relative_tolerance);
     is_held.assign(system.n_owned(), !task.has_pressure);
     Result result;
     const bool rubs = rows && Utilities::MPI::logical_or(

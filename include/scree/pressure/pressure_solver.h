@@ -128,6 +128,10 @@ namespace scree
     /// Sum of squares on this rank.
     double local_square(const Joint &vector) const;
 
+    /// Sets the tolerance from `scratch`, the flow of the whole pressure, and `source`, and how rows count. Collective.
+    /// @param relative to the larger of these
+    void set_tolerance(const double relative);
+
     /// Finds what is left of the flow, at all unknowns. Collective.
     void find_residual();
 
@@ -161,7 +165,8 @@ namespace scree
     Joint source, solution, residual, scratch;
     // Of iterate(): what is left of the source, that preconditioned, that times S; the step's direction, that times S.
     Joint remainder, preconditioned, product, direction, direction_product;
-    double tolerance = 0; // of the last solve's residual, m^3/s
+    double tolerance      = 0;  // of the last solve's residual, m^3/s
+    double weight_of_rows = 1.; // of the squares of flows at rows against those at vertices, in norms
 
     std::unique_ptr<PressurePreconditioner<dim>> preconditioner;
     static constexpr unsigned int iterations_worth_a_preconditioner = 200; // what making it costs, measured
