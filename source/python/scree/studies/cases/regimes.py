@@ -9,6 +9,7 @@ It **collapses** in air, collapses **submerged** under 1.2 H of water (both Mohr
 The error of a model is the largest deviation from the coupled run at t = 1, 2, 3, 4 sqrt(H/g): of the front of 90 % of the soil over its position, or of the
 settlement over the final drained one.
 G = (H^2/c_v)/sqrt(H/g), with c_v = k E_oed/(rho_w g), is drainage time over motion time.
+`--advise` takes the undrained model above 414, on the safe side ([Running](../../running.md#dimensionless-numbers)).
 """
 import math
 
