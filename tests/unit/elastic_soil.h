@@ -8,17 +8,18 @@
 
 #include <string>
 
-/// Linear elastic soil of grains of 2500 kg/m^3 in a region of a grid.
+/// Linear elastic soil, of grains of 2500 kg/m^3 unless told, in a region of a grid.
 template <int dim>
 struct ElasticSoil : scree::SoilBody<dim>
 {
   ElasticSoil(const scree::BackgroundGrid<dim> &grid,
               const std::string &region,
               const unsigned int points_per_cell,
-              const double porosity)
+              const double porosity,
+              const double density_of_grains = grain_density)
       : scree::SoilBody<dim>("Soil",
-                             grain_density * (1. - porosity),
-                             grain_density,
+                             density_of_grains * (1. - porosity),
+                             density_of_grains,
                              scree::make_material<dim>(material()),
                              scree::PropertyLayout<dim>(0, false),
                              grid.triangulation(),
