@@ -13,6 +13,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "../elastic_soil.h"
 #include "../grid_box.h"
 #include "../unit_test.h"
 
@@ -70,24 +71,17 @@ template <int dim>
 void test_single_point(const std::vector<double> &upper_corner)
 {
   const BackgroundGrid<dim> grid(grid_box(0., upper_corner), MPI_COMM_WORLD);
-  constexpr double porosity = 0.37, grain_density = 2650;
-  MaterialParameters material;
-  material.law          = "linear elastic";
-  const bool is_affine  = true;
-  const auto n_further  = WaterLayout<dim>(0, is_affine).n_properties();
-  const auto soil_slots = PropertyLayout<dim>(0, is_affine).n_properties;
-  SoilBody<dim> soil("Soil",
-                     grain_density * (1. - porosity),
-                     grain_density,
-                     make_material<dim>(material),
-                     PropertyLayout<dim>(0, is_affine, n_further),
-                     grid.triangulation(),
-                     grid.mapping());
-  SeedingParameters seeding;
-  seeding.region           = dim == 2 ? "y < 0.6 - 0.3*x" : "z < 0.6 - 0.3*x";
-  seeding.points_per_cell  = 2;
-  seeding.initial_velocity = dim == 2 ? "x; -y" : "x; -y; 3*z";
-  seed(soil, seeding, grid.triangulation(), grid.cell_size());
+  constexpr double porosity = 0.37;
+  const bool is_affine      = true;
+  const auto n_further      = WaterLayout<dim>(0, is_affine).n_properties();
+  const auto soil_slots     = PropertyLayout<dim>(0, is_affine).n_properties;
+  ElasticSoil<dim> soil(grid,
+                        dim == 2 ? "y < 0.6 - 0.3*x" : "z < 0.6 - 0.3*x",
+                        2,
+                        porosity,
+                        2650.,
+                        PropertyLayout<dim>(0, is_affine, n_further),
+                        dim == 2 ? "x; -y" : "x; -y; 3*z");
 
   WaterPhase<dim> water(1000., is_affine, soil);
   seed_water(water, WaterParameters(), {}, grid.triangulation(), grid.cell_size());

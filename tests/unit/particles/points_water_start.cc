@@ -15,6 +15,7 @@
 #include <functional>
 #include <iostream>
 
+#include "../elastic_soil.h"
 #include "../grid_box.h"
 #include "../unit_test.h"
 
@@ -76,23 +77,11 @@ void test(const Scene<dim> &scene)
   std::cout << dim << "D " << scene.name << ": pressure OK, up to " << Utilities::MPI::max(largest, MPI_COMM_WORLD)
             << " Pa";
 
-  MaterialParameters material;
-  material.law = "linear elastic";
   Overburden<dim> soil_above(grid, effective_weight_layers<dim>(scene.soil, &parameters), scene.gravity, spacing);
   error = largest = 0;
   for (const SoilRegion &body : scene.soil)
     {
-      SoilBody<dim> soil("Soil",
-                         body.bulk_density,
-                         grain_density,
-                         make_material<dim>(material),
-                         PropertyLayout<dim>(0, false),
-                         grid.triangulation(),
-                         grid.mapping());
-      SeedingParameters seeding;
-      seeding.region          = body.region;
-      seeding.points_per_cell = 2;
-      seed(soil, seeding, grid.triangulation(), grid.cell_size());
+      ElasticSoil<dim> soil(grid, body.region, 2, 1. - body.bulk_density / grain_density, grain_density);
       set_k0_stress(soil, soil_above, K0, "");
       for_each_point(soil.points, [&](const auto &point) {
         const double *stress  = point.properties + soil.layout.stress;

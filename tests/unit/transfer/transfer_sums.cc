@@ -13,6 +13,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "../elastic_soil.h"
 #include "../grid_box.h"
 #include "../random_numbers.h"
 
@@ -33,19 +34,7 @@ void test(const std::string &basis, const std::string &method)
   const bool affine          = transfer_parameters.carries_affine_field();
   const Transfer<dim> transfer(grid, transfer_parameters, StabilisationParameters());
 
-  MaterialParameters material;
-  material.law = "linear elastic";
-  SeedingParameters seeding;
-  seeding.region          = "x + 0.7 * y < 0.55";
-  seeding.points_per_cell = 3;
-  SoilBody<dim> body("Soil",
-                     1000.,
-                     1000.,
-                     make_material<dim>(material),
-                     PropertyLayout<dim>(0, affine),
-                     grid.triangulation(),
-                     grid.mapping());
-  seed(body, seeding, grid.triangulation(), grid.cell_size());
+  ElasticSoil<dim> body(grid, "x + 0.7 * y < 0.55", 3, 0., 1000., PropertyLayout<dim>(0, affine));
 
   RandomNumbers random;
   double points_mass = 0;

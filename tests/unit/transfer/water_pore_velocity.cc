@@ -9,6 +9,7 @@
 //   there does not take it;
 // - uniform porosity gives the velocity of the nodes to rounding, water without soil gives it to the last digit.
 
+#include "../elastic_soil.h"
 #include "../grid_box.h"
 #include "../pattern.h"
 
@@ -50,13 +51,7 @@ namespace
   public:
     Scene(const std::string &basis, const std::string &method, const std::string &soil_region)
         : grid(grid_box<dim>(0., 0.6, 0.1, basis), MPI_COMM_WORLD)
-        , soil("Soil",
-               1500.,
-               2500.,
-               make_material<dim>(linear_elastic()),
-               PropertyLayout<dim>(0, false),
-               grid.triangulation(),
-               grid.mapping())
+        , soil(grid, soil_region, points_of_soil, 0.4)
         , water(1000., true, grid.triangulation(), grid.mapping())
         , mixture(grid, points_of_soil)
         , pores(grid)
@@ -64,14 +59,6 @@ namespace
         , water_field(grid)
         , excess(grid)
     {
-      if (soil_region != "none")
-        {
-          SeedingParameters seeding;
-          seeding.region           = soil_region;
-          seeding.points_per_cell  = points_of_soil;
-          seeding.initial_porosity = 0.4;
-          seed(soil, seeding, grid.triangulation(), grid.cell_size());
-        }
       water_parameters.region          = "y < 0.44";
       water_parameters.points_per_cell = 3;
       const std::string region         = soil_region == "none" ? "0" : soil_region;
@@ -134,7 +121,7 @@ namespace
 
     using Field = NodalField<dim>;
     const BackgroundGrid<dim> grid;
-    SoilBody<dim> soil;
+    ElasticSoil<dim> soil;
     WaterPhase<dim> water;
     WaterParameters water_parameters;
     TransferParameters transfer_parameters;
@@ -142,14 +129,6 @@ namespace
     Mixture<dim> mixture;
     PoreField<dim> pores;
     NodalField<dim> soil_field, water_field, excess;
-
-  private:
-    static MaterialParameters linear_elastic()
-    {
-      MaterialParameters material;
-      material.law = "linear elastic";
-      return material;
-    }
   };
 
   std::string bounded(const double value, const double bound)
