@@ -3,18 +3,20 @@
 
 A table consists of blocks, with the lines of a block indented:
 
-  base plain                        entries that cases start from
-    Soil/Region = y < 0.5
+  base plain: Soil/Region = y < 0.5           entries that cases start from
 
-  file profile.csv                  a file that cases name, each line after "| "
+  file profile.csv                            a file that cases name, each line after "| "
     | 0, 0.2
 
-  case cell_size_zero from plain    the file cell_size_zero.prm: these entries, then the others of the base
-    Mesh/Cell size = 0
+  file other.csv from profile.csv             the same but for the lines of these numbers
+    1| 0, 0.3
+
+  case cell_size_zero from plain: Mesh/Cell size = 0    the file cell_size_zero.prm: these entries, then the others of the base
     ! subsection Mesh, entry "Cell size" = 0: write a number above 0.
 
-"Soil/" alone is an empty subsection. A case of "| " lines has those as its file instead, \\xHH is a byte of them.
-"$ scree --resume valid.prm" is a command line other than "scree NAME.prm".
+Entries stand behind the colon, with " | " between them, or in lines of their own; "/ENTRY" is of the subsection of the one before it, and
+"Soil/" alone an empty subsection. A case of "| " lines has those as its file instead, \\xHH is a byte of them.
+"$ scree --resume valid.prm" in the place of an entry is a command line other than "scree NAME.prm".
 "! TEXT" is all of standard error, with exit code 1: "scree: NAME.prm, line N: TEXT", where N is the line of the entry or
 subsection that the text names, and without a line if the case does not contain it. "! scree..." is the whole message,
 "! nothing" a run without an error.
@@ -49,10 +51,10 @@ def blocks(table):
     block = None
     for number, line in enumerate(table.read_text(encoding="ascii").splitlines(), start=1):
         place = f"{table.name}, line {number}"
-        if header := re.fullmatch(r"(base|file|case) (\S+)(?: from (\S+))?", line):
+        if header := re.fullmatch(r"(base|file|case) ([^\s:]+)(?: from ([^\s:]+))?(?:: (.*))?", line):
             if block:
                 yield block
-            block = Block(header[1], header[2], header[3] or "", place, [])
+            block = Block(header[1], header[2], header[3] or "", place, header[4].split(" | ") if header[4] else [])
         elif line.startswith("  ") and block:
             block.lines.append(line[2:])
         elif line and not line.startswith("#"):
@@ -73,11 +75,13 @@ def quoted(block):
 
 def entries(block):
     """The entries of a block: path and value, or None for an empty subsection."""
-    found = {}
+    found, subsection = {}, ""
     for line in block.lines:
         if line[0] in "|!$":
             continue
         path, equals, value = line.partition(" = ")
+        path = subsection + path if path[0] == "/" else path
+        subsection = path.rpartition("/")[0]
         if not (equals or line.endswith("/")) or path in found:
             raise SystemExit(f"{block.place}: {line!r} is no new entry. Write SUBSECTION/ENTRY = VALUE.")
         found[path] = value if equals else None
@@ -155,8 +159,16 @@ class Tables:
                 if block.name in kinds[block.kind]:
                     raise SystemExit(f"{block.place}: there is another {block.kind} {block.name}.")
                 kinds[block.kind][block.name] = block
-        bases = {name: entries(block) for name, block in kinds["base"].items()}
-        self.files = {name: quoted(block) for name, block in kinds["file"].items()}
+        bases = {}
+        for name, block in kinds["base"].items():
+            bases[name] = entries(block) | (bases[block.base] if block.base else {})
+        self.files = {}
+        for name, block in kinds["file"].items():
+            content = self.files[block.base].splitlines(keepends=True) if block.base else quoted(block)
+            for line in block.lines if block.base else ():
+                number, _, text = line.partition("| ")
+                content[int(number) - 1] = as_bytes(text) + b"\n"
+            self.files[name] = b"".join(content) if block.base else content
         for block in kinds["case"].values():
             if block.base and block.base not in bases:
                 raise SystemExit(f"{block.place}: there is no base {block.base}. There are {', '.join(bases)}.")

@@ -12,7 +12,7 @@ import numpy as np
 from scree import closed_forms
 from scree.results import read_points
 
-from scene_tools import check, largest_fall, main, run
+from scene_tools import check, check_momentum, largest_fall, main, run
 
 GRAVITY = closed_forms.GRAVITY
 ANGLES = (0, 10, 27, 45)
@@ -75,8 +75,7 @@ def run_block(scree, name, plane, friction, entries, length=1., height=0.3, acro
 
 def check_bed(name, table):
     """Momentum to rounding with the bed's impulse, nothing below the bed beyond the error of its sampling, no energy from nothing."""
-    mass, time = table["Mass (kg)"][0], table["Time (s)"][-1]
-    check(name + ": momentum residual over weight times time", max(table["Momentum residual (N s)"]) / (mass * GRAVITY * time), 0, 1e-11)
+    check_momentum(name, table)
     check(name + ": depth of the deepest point below the bed, m", max(0., -min(table["Least distance from bed (m)"])), 0, 5e-4)
     released = max(np.ptp(table["Potential energy (J)"]), 1e-300)
     gain = largest_fall(table["Numerical dissipation (J)"])
@@ -294,8 +293,7 @@ def bed_settled(scree):
     run(scree, "bed/settled_layer", "loose", {"Settling/Maximum time": "0", "Output/Graphics": "points", "Output/Interval": "0.5"})
     fall = np.linalg.norm(read_points("loose").arrays["displacement"], axis=1)
     check("the same from a K0 start: largest displacement over that of the settled one", max(fall) / max(moved), 10, 1e9)
-    check("settled layer: momentum residual over weight times time",
-          max(table["Momentum residual (N s)"]) / (table["Mass (kg)"][0] * GRAVITY * 0.5), 0, 1e-11)
+    check_momentum("settled layer", table)
 
 
 def spread(name, plane):

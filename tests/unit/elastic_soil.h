@@ -8,19 +8,22 @@
 
 #include <string>
 
-/// Linear elastic soil of grains of 2500 kg/m^3 in a region of a grid.
+/// Linear elastic soil, of grains of 2500 kg/m^3 unless told, in a region of a grid; "none" has no points.
 template <int dim>
 struct ElasticSoil : scree::SoilBody<dim>
 {
   ElasticSoil(const scree::BackgroundGrid<dim> &grid,
               const std::string &region,
               const unsigned int points_per_cell,
-              const double porosity)
+              const double porosity,
+              const double density_of_grains           = grain_density,
+              const scree::PropertyLayout<dim> &layout = scree::PropertyLayout<dim>(0, false),
+              const std::string &velocity              = "")
       : scree::SoilBody<dim>("Soil",
-                             grain_density * (1. - porosity),
-                             grain_density,
+                             density_of_grains * (1. - porosity),
+                             density_of_grains,
                              scree::make_material<dim>(material()),
-                             scree::PropertyLayout<dim>(0, false),
+                             layout,
                              grid.triangulation(),
                              grid.mapping())
   {
@@ -28,7 +31,9 @@ struct ElasticSoil : scree::SoilBody<dim>
     seeding.region           = region;
     seeding.points_per_cell  = points_per_cell;
     seeding.initial_porosity = porosity;
-    scree::seed(*this, seeding, grid.triangulation(), grid.cell_size());
+    seeding.initial_velocity = velocity;
+    if (region != "none")
+      scree::seed(*this, seeding, grid.triangulation(), grid.cell_size());
   }
 
   static constexpr double grain_density = 2500.;

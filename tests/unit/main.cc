@@ -30,6 +30,8 @@ int main(int argc, char *argv[])
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   if (const auto test = all_tests().find(argc == 2 ? argv[1] : ""); test != all_tests().end())
     {
+      if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) > 0)
+        std::cout.rdbuf(nullptr);
       test->second();
       return 0;
     }

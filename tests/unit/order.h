@@ -42,15 +42,17 @@ struct RelativeError
   }
 };
 
-/// Prints the errors of ever halved cells with the order between them; returns the last order.
+/// Prints the errors of ever halved cells and the orders between them; returns the last order.
 inline double print_orders(const std::string &name, const std::vector<double> &errors)
 {
+  std::printf("%s: errors", name.c_str());
+  for (const double error : errors)
+    std::printf(" %.3e", error);
+  std::printf(", orders");
   double order = 0;
-  for (unsigned int i = 0; i < errors.size(); ++i)
-    {
-      order = i > 0 ? std::log2(errors[i - 1] / errors[i]) : 0;
-      std::printf("%s: error %.3e order %.2f\n", name.c_str(), errors[i], order);
-    }
+  for (unsigned int i = 1; i < errors.size(); ++i)
+    std::printf(" %.2f", order = std::log2(errors[i - 1] / errors[i]));
+  std::printf("\n");
   return order;
 }
 

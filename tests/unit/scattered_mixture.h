@@ -8,6 +8,8 @@
 #include <cmath>
 #include <string>
 
+#include "grid_box.h"
+
 /// Any number from 0 to 1 that follows from a place and a seed: the same on all ranks.
 template <int dim>
 double number_at(const dealii::Point<dim> &x, const unsigned int seed)
@@ -35,7 +37,7 @@ template <int dim>
 struct ScatteredMixture
 {
   explicit ScatteredMixture(const std::string &ground_expression)
-      : grid(unit_box(), MPI_COMM_WORLD)
+      : grid(grid_box<dim>(0., 1., 0.25), MPI_COMM_WORLD)
       , surface("", ground_expression, grid.cell_size())
       , samples(grid, surface)
       , ground({ { &samples } })
@@ -64,15 +66,6 @@ struct ScatteredMixture
     soil.update_ghosts();
     water.update_ghosts();
     pores.update_ghosts();
-  }
-
-  static scree::GridParameters unit_box()
-  {
-    scree::GridParameters parameters;
-    parameters.lower_corner.assign(dim, 0.);
-    parameters.upper_corner.assign(dim, 1.);
-    parameters.cell_size = 0.25;
-    return parameters;
   }
 
   /// A place that tells a segment from others.

@@ -5,7 +5,7 @@
 #include <string>
 
 /// A test of its folder's program, which runs it when called with its name: `const UnitTest registered("name", run);`.
-/// MPI has been initialised. What the test prints is compared with name.output.
+/// MPI has been initialised. What the test prints on the first rank is compared with name.output; others print nothing.
 class UnitTest
 {
 public:

@@ -72,6 +72,8 @@ struct States
 };
 
 
+unsigned int n_kinds = 0;
+
 /// What random states are like.
 struct Kind
 {
@@ -204,7 +206,7 @@ void test(const Law &law, const Kind &kind, const unsigned int n, const double b
               << report_of_one.n_separated << ", sub-steps " << report_of_one.n_substeps << std::endl;
   AssertThrow(error < bound, ExcMessage(name + ": differs by " + std::to_string(error)));
   test_places(in_batches, start, batch, name, random);
-  std::cout << name << ": OK" << std::endl;
+  ++n_kinds;
 }
 
 
@@ -294,7 +296,6 @@ void test_odd()
   test_odd<dim>(NorSand{ NorSandParameters() });
   test_odd<dim>(MohrCoulomb{ MohrCoulombParameters() });
   test_odd<dim>(JefferiesBeen{ JefferiesBeenParameters() });
-  std::cout << dim << "D, odd states: OK" << std::endl;
 }
 
 
@@ -310,6 +311,7 @@ void run()
   test_jefferies_been<3>(n, random);
   test_odd<2>();
   test_odd<3>();
+  std::cout << n_kinds << " kinds of states, odd ones: OK" << std::endl;
 }
 
 const UnitTest registered("material_batches", run);
@@ -317,39 +319,4 @@ const UnitTest registered("material_batches", run);
 
 
 // Output:
-// 2D, elastic, small strain: OK
-// 2D, elastic, large strain: OK
-// 2D, sand, inside the yield surface: OK
-// 2D, sand, yielding: OK
-// 2D, sand, mixed with sub-steps: OK
-// 2D, sand, pulled apart and to the vertex: OK
-// 2D, N = 0: OK
-// 3D, elastic, small strain: OK
-// 3D, elastic, large strain: OK
-// 3D, sand, inside the yield surface: OK
-// 3D, sand, yielding: OK
-// 3D, sand, mixed with sub-steps: OK
-// 3D, sand, pulled apart and to the vertex: OK
-// 3D, N = 0: OK
-// 2D, Mohr-Coulomb, inside the yield surface: OK
-// 2D, Mohr-Coulomb, faces, edges, pulled apart: OK
-// 2D, Mohr-Coulomb, nearly isotropic: OK
-// 2D, Mohr-Coulomb, inertial friction: OK
-// 2D, Mohr-Coulomb, psi, c, no tension: OK
-// 2D, Mohr-Coulomb, cut-off: OK
-// 2D, Mohr-Coulomb, no friction: OK
-// 3D, Mohr-Coulomb, inside the yield surface: OK
-// 3D, Mohr-Coulomb, faces, edges, pulled apart: OK
-// 3D, Mohr-Coulomb, nearly isotropic: OK
-// 3D, Mohr-Coulomb, inertial friction: OK
-// 3D, Mohr-Coulomb, psi, c, no tension: OK
-// 3D, Mohr-Coulomb, cut-off: OK
-// 3D, Mohr-Coulomb, no friction: OK
-// 2D, Jefferies-Been, inside the yield surface: OK
-// 2D, Jefferies-Been, yielding: OK
-// 2D, Jefferies-Been, pulled apart and to the vertex: OK
-// 3D, Jefferies-Been, inside the yield surface: OK
-// 3D, Jefferies-Been, yielding: OK
-// 3D, Jefferies-Been, pulled apart and to the vertex: OK
-// 2D, odd states: OK
-// 3D, odd states: OK
+// 34 kinds of states, odd ones: OK

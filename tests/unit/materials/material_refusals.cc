@@ -19,6 +19,8 @@ namespace test_material_refusals
 using namespace dealii;
 using namespace scree;
 
+unsigned int n_refusals = 0;
+
 void expect_refusal(const std::string &name, const std::function<void()> &action, const std::string &wanted)
 {
   std::string message = "no exception";
@@ -31,7 +33,7 @@ void expect_refusal(const std::string &name, const std::function<void()> &action
       message = error.what();
     }
   AssertThrow(message.find(wanted) != std::string::npos, ExcMessage(name + " was not refused: " + message));
-  std::cout << name << ": OK" << std::endl;
+  ++n_refusals;
 }
 
 
@@ -128,6 +130,7 @@ void run()
     }
   test_starts();
   test_parameters();
+  std::cout << n_refusals << " refusals: OK" << std::endl;
 }
 
 const UnitTest registered("material_refusals", run);
@@ -135,43 +138,4 @@ const UnitTest registered("material_refusals", run);
 
 
 // Output:
-// linear elastic, 2D: not a number: OK
-// linear elastic, 2D: inside out: OK
-// linear elastic, 2D: no volume: OK
-// linear elastic, 3D: not a number: OK
-// linear elastic, 3D: inside out: OK
-// linear elastic, 3D: no volume: OK
-// Mohr-Coulomb, 2D: not a number: OK
-// Mohr-Coulomb, 2D: inside out: OK
-// Mohr-Coulomb, 2D: no volume: OK
-// Mohr-Coulomb, 3D: not a number: OK
-// Mohr-Coulomb, 3D: inside out: OK
-// Mohr-Coulomb, 3D: no volume: OK
-// Nor-Sand, 2D: not a number: OK
-// Nor-Sand, 2D: inside out: OK
-// Nor-Sand, 2D: no volume: OK
-// Nor-Sand, 2D: beyond all sub-steps: OK
-// Nor-Sand, 3D: not a number: OK
-// Nor-Sand, 3D: inside out: OK
-// Nor-Sand, 3D: no volume: OK
-// Nor-Sand, 3D: beyond all sub-steps: OK
-// Nor-Sand (Jefferies-Been), 2D: not a number: OK
-// Nor-Sand (Jefferies-Been), 2D: inside out: OK
-// Nor-Sand (Jefferies-Been), 2D: no volume: OK
-// Nor-Sand (Jefferies-Been), 2D: beyond all sub-steps: OK
-// Nor-Sand (Jefferies-Been), 3D: not a number: OK
-// Nor-Sand (Jefferies-Been), 3D: inside out: OK
-// Nor-Sand (Jefferies-Been), 3D: no volume: OK
-// Nor-Sand (Jefferies-Been), 3D: beyond all sub-steps: OK
-// Nor-Sand under tension: OK
-// Nor-Sand, K0 too small: OK
-// Nor-Sand (Jefferies-Been) under tension: OK
-// Nor-Sand (Jefferies-Been), K0 too small: OK
-// Mohr-Coulomb, K0 too small: OK
-// Nor-Sand, Potential constant N bar: OK
-// Nor-Sand, Compression index: OK
-// Nor-Sand, Critical stress ratio M: OK
-// Nor-Sand, Initial specific volume: OK
-// Mohr-Coulomb, Dilation angle: OK
-// Mohr-Coulomb, Tension cut-off: OK
-// Mohr-Coulomb, Poisson's ratio: OK
+// 40 refusals: OK

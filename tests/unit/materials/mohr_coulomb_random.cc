@@ -10,11 +10,8 @@
 
 #include <iostream>
 
-#include "../random_numbers.h"
-#include "one_point.h"
-
-#include "../expect.h"
 #include "../unit_test.h"
+#include "one_point.h"
 
 namespace test_mohr_coulomb_random
 {
@@ -55,11 +52,8 @@ void test_random(const std::string &name, const MohrCoulombParameters &parameter
   unsigned int n_elastic = 0, n_plastic = 0, n_faces = 0;
   for (unsigned int i = 0; i < 1000000; ++i)
     {
-      const double size = random.log_uniform(1e-6, 1e-1), mean = random.uniform(-1, 0.3) * size;
-      PrincipalValues strain;
-      for (double &value : strain)
-        value = mean + size * random.uniform(-1, 1);
-
+      const double size           = random.log_uniform(1e-6, 1e-1);
+      PrincipalValues strain      = random_strain(random, size);
       const PrincipalValues trial = strain;
       double plastic_shear_strain = 0;
       PrincipalValues stress, again_stress;

@@ -4,6 +4,13 @@
 
 #include <scree/materials/hencky_material.h>
 
+#include <functional>
+#include <iostream>
+#include <string>
+
+#include "../expect.h"
+#include "../random_numbers.h"
+
 namespace scree
 {
 /// The return of a law for one point, in principal values; says whether it changed anything, and counts in `report`.
@@ -108,6 +115,68 @@ private:
 
   const Law law;
 };
+
+
+/// Strains of `size` around a mean that is from compression to some tension.
+inline PrincipalValues random_strain(RandomNumbers &random, const double size)
+{
+  const double mean = random.uniform(-1, 0.3) * size;
+  PrincipalValues strain;
+  for (double &value : strain)
+    value = mean + size * random.uniform(-1, 1);
+  return strain;
+}
+
+
+/// 20 points of a law with `n_internal` variables side by side on a path of random increments of this size: lanes and
+/// the path point by point agree, and the points shear by more than `least_shear`. `start` sets the internal variables
+/// of a point.
+template <int dim, unsigned int n_internal, typename Law>
+void test_lanes(
+    const std::string &name,
+    const Law &law,
+    const double size,
+    const double least_shear,
+    RandomNumbers &random,
+    const std::function<void(unsigned int, double *)> &start = [](unsigned int, double *) {})
+{
+  constexpr unsigned int n = n_symmetric_components<dim>, n_points = 20, stride = 2 * n + n_internal;
+  const OnePointMaterial<dim, Law> one_by_one(law);
+  const HenckyMaterial<dim, Law> in_lanes(law);
+  std::vector<double> lanes(n_points * stride);
+  for (unsigned int p = 0; p < n_points; ++p)
+    {
+      double *record = &lanes[p * stride], stress[6] = { -1e4, -1e4, -1e4 };
+      start(p, record + 2 * n);
+      in_lanes.initialise(stress, record, record + n, record + 2 * n);
+    }
+  std::vector<double> points = lanes, increment(dim * dim * n_points), one(n_points, 1.);
+  UpdateReport report;
+  double largest = 0, largest_shear = 0;
+  for (unsigned int step = 0; step < 2000; ++step)
+    {
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        for (unsigned int p = 0; p < n_points; ++p)
+          increment[c * n_points + p] = (c % (dim + 1) == 0 ? 1 : 0) + size * random.uniform(-1, 1);
+      const MaterialMotion<dim> motion{ increment.data(), one.data(), one.data(), one.data(), n_points, 1e-3 };
+      const auto update = [&](const Material<dim> &material, std::vector<double> &records) {
+        material.update({ n_points, stride, &records[0], &records[n], &records[2 * n] }, motion, report);
+      };
+      update(in_lanes, lanes);
+      update(one_by_one, points);
+    }
+  for (unsigned int i = 0; i < lanes.size(); ++i)
+    {
+      const unsigned int c = i % stride;
+      const double scale   = c >= n && c < 2 * n ? 1e5 : 1;
+      largest              = std::max(largest, std::abs(lanes[i] - points[i]) / scale);
+      largest_shear        = c == 2 * n + 1 ? std::max(largest_shear, lanes[i]) : largest_shear;
+    }
+  AssertThrow(report.n_unresolved == 0, dealii::ExcMessage(name + ": unresolved"));
+  AssertThrow(largest_shear > least_shear, dealii::ExcMessage(name + ": the points did not shear"));
+  expect(largest, 0, 1e-7, name + ": difference of lanes");
+  std::cout << dim << "D, " << name << ", in lanes: OK" << std::endl;
+}
 } // namespace scree
 
 #endif

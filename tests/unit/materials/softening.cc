@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <iostream>
 
-#include "../expect.h"
-#include "../random_numbers.h"
 #include "../unit_test.h"
 #include "one_point.h"
 
@@ -28,16 +26,6 @@ MohrCoulombParameters clay()
   parameters.softening.cohesion       = 5e3;
   parameters.softening.friction_angle = 0;
   return parameters;
-}
-
-
-PrincipalValues random_strain(RandomNumbers &random, const double size)
-{
-  const double mean = random.uniform(-1, 0.3) * size;
-  PrincipalValues strain;
-  for (double &value : strain)
-    value = mean + size * random.uniform(-1, 1);
-  return strain;
 }
 
 
@@ -133,46 +121,10 @@ void test_peak(const std::string &name, MohrCoulombParameters parameters, Random
 }
 
 
-/// 20 points side by side on a path of random increments: lanes and the path point by point agree.
 template <int dim>
 void test_lanes(const std::string &name, const MohrCoulombParameters &parameters, RandomNumbers &random)
 {
-  constexpr unsigned int n = n_symmetric_components<dim>, n_points = 20, stride = 2 * n + 3;
-  const SofteningMohrCoulomb law(parameters);
-  const OnePointMaterial<dim, SofteningMohrCoulomb> one_by_one(law);
-  const HenckyMaterial<dim, SofteningMohrCoulomb> in_lanes(law);
-  std::vector<double> lanes(n_points * stride);
-  for (unsigned int p = 0; p < n_points; ++p)
-    {
-      double *record = &lanes[p * stride], stress[6] = { -1e4, -1e4, -1e4 };
-      in_lanes.initialise(stress, record, record + n, record + 2 * n);
-    }
-  std::vector<double> points = lanes, increment(dim * dim * n_points), one(n_points, 1.);
-  UpdateReport report;
-  double largest = 0, largest_kappa = 0;
-  for (unsigned int step = 0; step < 2000; ++step)
-    {
-      for (unsigned int c = 0; c < dim * dim; ++c)
-        for (unsigned int p = 0; p < n_points; ++p)
-          increment[c * n_points + p] = (c % (dim + 1) == 0 ? 1 : 0) + 2e-3 * random.uniform(-1, 1);
-      const MaterialMotion<dim> motion{ increment.data(), one.data(), one.data(), one.data(), n_points };
-      const auto update = [&](const Material<dim> &material, std::vector<double> &records) {
-        material.update({ n_points, stride, &records[0], &records[n], &records[2 * n] }, motion, report);
-      };
-      update(in_lanes, lanes);
-      update(one_by_one, points);
-    }
-  for (unsigned int i = 0; i < lanes.size(); ++i)
-    {
-      const unsigned int c = i % stride;
-      const double scale   = c < n ? 1 : c < 2 * n ? 1e5 : 1;
-      largest              = std::max(largest, std::abs(lanes[i] - points[i]) / scale);
-      largest_kappa        = c == 2 * n + 1 ? std::max(largest_kappa, lanes[i]) : largest_kappa;
-    }
-  AssertThrow(report.n_unresolved == 0, ExcMessage(name + ": unresolved"));
-  AssertThrow(largest_kappa > parameters.softening.strain, ExcMessage(name + ": the points did not soften"));
-  expect(largest, 0, 1e-7, name + ": difference of lanes");
-  std::cout << dim << "D, " << name << ", in lanes: OK" << std::endl;
+  scree::test_lanes<dim, 3>(name, SofteningMohrCoulomb(parameters), 2e-3, parameters.softening.strain, random);
 }
 
 

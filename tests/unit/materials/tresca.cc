@@ -10,8 +10,6 @@
 #include <algorithm>
 #include <iostream>
 
-#include "../expect.h"
-#include "../random_numbers.h"
 #include "../unit_test.h"
 #include "one_point.h"
 
@@ -74,10 +72,8 @@ void test_random(const std::string &name, const TrescaParameters &parameters, Ra
   unsigned int n_sheared = 0;
   for (unsigned int i = 0; i < 1000000; ++i)
     {
-      const double size = random.log_uniform(1e-6, 1e-1), mean = random.uniform(-1, 0.3) * size;
-      PrincipalValues trial;
-      for (double &value : trial)
-        value = mean + size * random.uniform(-1, 1);
+      const double size           = random.log_uniform(1e-6, 1e-1);
+      const PrincipalValues trial = random_strain(random, size);
       const double kappa = random.uniform(-0.01, 0.5), time_step = random.log_uniform(1e-7, 1e3);
       double internal[4]     = { 0, 0, kappa, random.log_uniform(1e2, 1e5) };
       const double strength  = law.slow_strength(internal);
@@ -108,47 +104,13 @@ void test_random(const std::string &name, const TrescaParameters &parameters, Ra
 }
 
 
-/// 20 points side by side on a path of random increments: lanes and the path point by point agree.
+/// Strength of the place of each of the points.
 template <int dim>
 void test_lanes(const std::string &name, const TrescaParameters &parameters, RandomNumbers &random)
 {
-  constexpr unsigned int n = n_symmetric_components<dim>, n_points = 20, stride = 2 * n + 4;
-  const Tresca law(parameters);
-  const OnePointMaterial<dim, Tresca> one_by_one(law);
-  const HenckyMaterial<dim, Tresca> in_lanes(law);
-  std::vector<double> lanes(n_points * stride);
-  for (unsigned int p = 0; p < n_points; ++p)
-    {
-      double *record = &lanes[p * stride], stress[6] = { -1e4, -1e4, -1e4 };
-      record[2 * n + of_place] = 1e4 + 1e3 * p;
-      in_lanes.initialise(stress, record, record + n, record + 2 * n);
-    }
-  std::vector<double> points = lanes, increment(dim * dim * n_points), one(n_points, 1.);
-  UpdateReport report;
-  double largest = 0, largest_kappa = 0;
-  for (unsigned int step = 0; step < 2000; ++step)
-    {
-      for (unsigned int c = 0; c < dim * dim; ++c)
-        for (unsigned int p = 0; p < n_points; ++p)
-          increment[c * n_points + p] = (c % (dim + 1) == 0 ? 1 : 0) + 5e-3 * random.uniform(-1, 1);
-      const MaterialMotion<dim> motion{ increment.data(), one.data(), one.data(), one.data(), n_points, 1e-3 };
-      const auto update = [&](const Material<dim> &material, std::vector<double> &records) {
-        material.update({ n_points, stride, &records[0], &records[n], &records[2 * n] }, motion, report);
-      };
-      update(in_lanes, lanes);
-      update(one_by_one, points);
-    }
-  for (unsigned int i = 0; i < lanes.size(); ++i)
-    {
-      const unsigned int c = i % stride;
-      const double scale   = c < n ? 1 : c < 2 * n ? 1e5 : 1;
-      largest              = std::max(largest, std::abs(lanes[i] - points[i]) / scale);
-      largest_kappa        = c == 2 * n + 1 ? std::max(largest_kappa, lanes[i]) : largest_kappa;
-    }
-  AssertThrow(report.n_unresolved == 0, ExcMessage(name + ": unresolved"));
-  AssertThrow(largest_kappa > 0.1, ExcMessage(name + ": the points did not shear"));
-  expect(largest, 0, 1e-7, name + ": difference of lanes");
-  std::cout << dim << "D, " << name << ", in lanes: OK" << std::endl;
+  scree::test_lanes<dim, 4>(name, Tresca(parameters), 5e-3, 0.1, random, [](const unsigned int p, double *internal) {
+    internal[of_place] = 1e4 + 1e3 * p;
+  });
 }
 
 

@@ -4,6 +4,7 @@
 // and normal, of planes at any angle and place to rounding, of a circle and a sphere to second order; ground on cells'
 // faces; the mass of bodies that are seeded on planes.
 
+#include "../grid_box.h"
 #include "../expect.h"
 #include "../random_numbers.h"
 
@@ -29,11 +30,7 @@ using namespace scree;
 template <int dim>
 BackgroundGrid<dim> box(const double cell_size)
 {
-  GridParameters parameters;
-  parameters.lower_corner.assign(dim, 0.);
-  parameters.upper_corner.assign(dim, 1.);
-  parameters.cell_size = cell_size;
-  return BackgroundGrid<dim>(parameters, MPI_COMM_WORLD);
+  return BackgroundGrid<dim>(grid_box<dim>(0., 1., cell_size), MPI_COMM_WORLD);
 }
 
 

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "../grid_box.h"
 #include "../unit_test.h"
 
 namespace test_grid_fine_cells
@@ -20,11 +21,7 @@ constexpr double width = 0.125;
 template <int dim>
 GridParameters box(const double size)
 {
-  GridParameters parameters;
-  parameters.lower_corner.assign(dim, -1.);
-  parameters.upper_corner.assign(dim, size - 1.);
-  parameters.cell_size = width;
-  return parameters;
+  return grid_box<dim>(-1., size - 1., width);
 }
 
 /// One cube at the lower corner of the box, one in it, 4 cells wide.
@@ -84,7 +81,7 @@ double linear_error(const BackgroundGrid<dim> &grid)
 }
 
 template <int dim>
-void describe(const BackgroundGrid<dim> &grid, std::ostream &out)
+void describe(const BackgroundGrid<dim> &grid)
 {
   unsigned int n_at_walls = 0, n_uses[4] = {};
   for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
@@ -93,40 +90,38 @@ void describe(const BackgroundGrid<dim> &grid, std::ostream &out)
     if (cell->is_locally_owned())
       ++n_uses[cell->user_index()];
   const auto sum = [](const unsigned int n) { return Utilities::MPI::sum(n, MPI_COMM_WORLD); };
-  out << "  " << sum(n_uses[0]) << " inner cells, " << sum(n_uses[1]) << " at the edge";
+  std::cout << "  " << sum(n_uses[0]) << " inner cells, " << sum(n_uses[1]) << " at the edge";
   if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1) // ranks have nodes beyond the edge of their own
-    out << ", " << grid.n_owned_nodes() << " nodes, " << n_at_walls << " at walls";
-  out << ", blocks: " << sum(grid.fine_blocks().size())
-      << (linear_error(grid) < 1e-12 ? ", linear functions are exact" : ", wrong")
-      << (sum(n_uses[2] + n_uses[3]) < 6000 ? "" : ", too many others") << std::endl;
+    std::cout << ", " << grid.n_owned_nodes() << " nodes, " << n_at_walls << " at walls";
+  std::cout << ", blocks: " << sum(grid.fine_blocks().size())
+            << (linear_error(grid) < 1e-12 ? ", linear functions are exact" : ", wrong")
+            << (sum(n_uses[2] + n_uses[3]) < 6000 ? "" : ", too many others") << std::endl;
 }
 
 template <int dim>
-void test(std::ostream &out)
+void test()
 {
-  out << dim << "D" << std::endl;
+  std::cout << dim << "D" << std::endl;
   for (const double size : { dim == 2 ? 18.875 : 4.125, dim == 2 ? 37.625 : 8.875 })
     {
       const double place = 1.25;
       BackgroundGrid<dim> grid(box<dim>(size),
                                { [&](const Point<dim> &corner) { return is_in_cubes(corner, place); }, nullptr, 1 },
                                MPI_COMM_WORLD);
-      describe(grid, out);
+      describe(grid);
       for (const double next : { size - 1. - 4 * width, place })
         {
           grid.refine(grid.with_surroundings(blocks_of_cubes(grid, next)), Shares::even);
           grid.distribute_nodes();
-          describe(grid, out);
+          describe(grid);
         }
     }
 }
 
 void run()
 {
-  std::ostringstream silent;
-  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
-  test<2>(out);
-  test<3>(out);
+  test<2>();
+  test<3>();
 }
 
 const UnitTest registered("grid_fine_cells", run);

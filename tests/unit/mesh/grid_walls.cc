@@ -16,6 +16,7 @@
 #include <map>
 #include <sstream>
 
+#include "../grid_box.h"
 #include "../unit_test.h"
 
 namespace test_grid_walls
@@ -48,7 +49,7 @@ void expect(const std::string &wall,
               ExcMessage(wall + ": " + Utilities::to_string(result[0]) + ", " + Utilities::to_string(result[1])));
 }
 
-void test_nodes(std::ostream &out)
+void test_nodes()
 {
   const auto v             = [](const double x, const double y) { return Tensor<1, 2>({ x, y }); };
   const std::uint8_t inner = 0, left = 1 << 0, top = 1 << 3;
@@ -67,16 +68,13 @@ void test_nodes(std::ostream &out)
   expect("friction 45", v(2, 3), left, v(2, 3));
   expect("friction 45", v(3, 2), top, v(1, 0));
   expect("friction 45", v(3, -2), top, v(3, -2));
-  out << "nodes: OK" << std::endl;
+  std::cout << "nodes: OK" << std::endl;
 }
 
 /// Components that walls hold, pressures that they prescribe, and points that leave, for water and soil.
-void test_water(std::ostream &out)
+void test_water()
 {
-  GridParameters box;
-  box.lower_corner = { -0.2, -0.2, -0.2 };
-  box.upper_corner = { 0.8, 0.8, 0.8 };
-  const BackgroundGrid<3> grid(box, MPI_COMM_WORLD);
+  const BackgroundGrid<3> grid(grid_box<3>(-0.2, 0.8), MPI_COMM_WORLD);
   WaterBoundaryParameters wet;
   wet.left  = "no slip";
   wet.right = "drained 3e3";
@@ -121,12 +119,12 @@ void test_water(std::ostream &out)
   AssertThrow(friction.size() == 1 && friction[0].type == NodeConstraint<3>::Type::unilateral &&
                   (friction[0].normal == Tensor<1, 3>({ 0., -1., 0. })) && !of_faces(top).any(),
               ExcMessage("The wrong walls have friction."));
-  out << "water: OK" << std::endl;
+  std::cout << "water: OK" << std::endl;
 }
 
 /// Coulomb's law; walls that are oblique to the axes; a gate that is closed and opened, and does not mind a new
 /// partition.
-void test_constraints(std::ostream &out)
+void test_constraints()
 {
   const Tensor<1, 2> needed({ 3., -4. });
   const auto slides = coulomb_friction(needed, 1.), sticks = coulomb_friction(needed, 6.);
@@ -174,7 +172,7 @@ void test_constraints(std::ostream &out)
   AssertThrow(closed == n_held() && closed > open + 50, ExcMessage("The gate does not hold."));
   constraints.open_gate();
   AssertThrow(open == n_held(), ExcMessage("The gate does not open."));
-  out << "constraints: OK, " << open << " nodes held, " << closed << " with a gate" << std::endl;
+  std::cout << "constraints: OK, " << open << " nodes held, " << closed << " with a gate" << std::endl;
 }
 
 /// A block of elastic soil, 0.4 m x 0.2 m, on the bottom of a wide box.
@@ -229,7 +227,7 @@ double largest_fall(const std::string &column)
 }
 
 /// A block slides on a wall with friction, and is slowed down by the coefficient times gravity.
-void test_friction(std::ostream &out)
+void test_friction()
 {
   Parameters parameters;
   set_block(parameters);
@@ -252,11 +250,11 @@ void test_friction(std::ostream &out)
   AssertThrow(std::abs(work / lost - 1.) < 0.02,
               ExcMessage("The wall takes " + Utilities::to_string(work) + " J of " + Utilities::to_string(lost)));
   AssertThrow(row["Momentum residual (N s)"] < 1e-12 * row["Mass (kg)"], ExcMessage("Momentum does not balance."));
-  out << "friction: OK, " << deceleration / expected << ", wall takes " << work / lost << std::endl;
+  std::cout << "friction: OK, " << deceleration / expected << ", wall takes " << work / lost << std::endl;
 }
 
 /// A block flies through an open wall: what has left is counted, nothing else is missing.
-void test_open(std::ostream &out)
+void test_open()
 {
   Parameters parameters;
   set_block(parameters);
@@ -274,12 +272,12 @@ void test_open(std::ostream &out)
   AssertThrow(row["Points"] + row["Points lost"] == n_all, ExcMessage("Points vanish."));
   AssertThrow(std::abs(row["Mass (kg)"] + row["Mass lost (kg)"] - all) < 1e-11 * all, ExcMessage("Mass vanishes."));
   AssertThrow(row["Momentum residual (N s)"] < 1e-12 * all * 2.5, ExcMessage("Momentum does not balance."));
-  out << "open: OK, " << row["Points lost"] << " points left" << std::endl;
+  std::cout << "open: OK, " << row["Points lost"] << " points left" << std::endl;
 }
 
 /// Through a closed wall no point may leave: a block that runs into a fixed wall rebounds. The wall takes what it stops
 /// at the nodes, and not what the block's stress brings there for a while.
-void test_fixed(std::ostream &out)
+void test_fixed()
 {
   Parameters parameters;
   set_block(parameters);
@@ -304,20 +302,18 @@ void test_fixed(std::ostream &out)
   AssertThrow(largest_fall("Wall dissipation (J)") < 1e-12 * brought, ExcMessage("A wall at rest gives energy."));
   const double made = largest_fall("Numerical dissipation (J)") / brought;
   AssertThrow(made < 2e-3, ExcMessage("The block gains " + Utilities::to_string(made) + " of its energy."));
-  out << "fixed: OK, rebound " << restitution << std::endl;
+  std::cout << "fixed: OK, rebound " << restitution << std::endl;
 }
 
 
 void run()
 {
-  std::ostream silent(nullptr);
-  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
-  test_nodes(out);
-  test_water(out);
-  test_constraints(out);
-  test_friction(out);
-  test_open(out);
-  test_fixed(out);
+  test_nodes();
+  test_water();
+  test_constraints();
+  test_friction();
+  test_open();
+  test_fixed();
 }
 
 const UnitTest registered("grid_walls", run);

@@ -15,10 +15,13 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <regex>
+#include <set>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include "../grid_box.h"
 #include "../unit_test.h"
 
 namespace test_checkpoint_faults
@@ -40,16 +43,8 @@ struct Run
   PointSet<dim> points, none;
   double state = 0.;
 
-  static GridParameters box()
-  {
-    GridParameters parameters;
-    parameters.lower_corner.assign(dim, 0.);
-    parameters.upper_corner.assign(dim, 0.4);
-    return parameters;
-  }
-
   Run()
-      : grid(box(), MPI_COMM_WORLD)
+      : grid(grid_box<dim>(0., 0.4), MPI_COMM_WORLD)
       , points(grid.triangulation(), grid.mapping(), 3)
       , none(grid.triangulation(), grid.mapping(), 2)
   {
@@ -254,39 +249,54 @@ private:
 };
 
 
-/// A third checkpoint, with room for files of so many bytes on `rank` alone, or on all ranks if there is none such.
-void test_full_disk(const std::string &whole, const std::vector<double> &sums, std::ostream &out)
+/// The error of a third checkpoint, with room for files of so many bytes on this rank; no older checkpoint is lost, and
+/// nothing left of it.
+std::string fault_of_full_disk(const std::vector<double> &sums, const rlim_t n_bytes)
 {
-  const unsigned int rank    = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-  const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-  for (unsigned int full_rank = 0; full_rank <= n_ranks; ++full_rank)
-    for (const unsigned int n_bytes : { 0u, 30u, 150u, 10000u })
-      {
-        copy_folder(whole, "full");
-        Run<2> run;
-        run.grid.triangulation().repartition();
-        run.load("full", [](const auto &) {});
-        run.step();
-        std::string fault = "no error";
-        try
-          {
-            const FullDisk disk(full_rank == n_ranks || full_rank == rank ? n_bytes : RLIM_INFINITY);
-            run.save("full");
-          }
-        catch (const EntryError &error)
-          {
-            fault = error.what();
-          }
-        out << "room for " << n_bytes << " bytes on "
-            << (full_rank == n_ranks ? "all ranks" : "rank " + std::to_string(full_rank)) << ": "
-            << without_sizes(fault) << "\n    " << outcome<2>("full", sums) << ", "
-            << (fs::exists("full/checkpoint/unfinished") ? "with rubbish" : "without rubbish") << std::endl;
-      }
+  copy_folder("whole", "full");
+  Run<2> run;
+  run.grid.triangulation().repartition();
+  run.load("full", [](const auto &) {});
+  run.step();
+  std::string fault;
+  try
+    {
+      const FullDisk disk(n_bytes);
+      run.save("full");
+    }
+  catch (const EntryError &error)
+    {
+      fault = without_sizes(error.what());
+    }
+  const std::string found = outcome<2>("full", sums), wanted = fault.empty() ? "Step 3" : "Step 2";
+  AssertThrow(found == wanted, ExcMessage(found + " instead of " + wanted + " after " + fault));
+  AssertThrow(!fs::exists("full/checkpoint/unfinished"), ExcMessage("Rubbish is left after " + fault));
+  return fault;
+}
+
+
+/// A disk that is full for all ranks or the first one: the same error; for another one: that of its points.
+void test_full_disk(const std::vector<double> &sums)
+{
+  const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+  for (const rlim_t n_bytes : { 0u, 30u, 150u, 10000u })
+    {
+      const std::string fault = fault_of_full_disk(sums, n_bytes);
+      std::cout << "room for " << n_bytes << " bytes: " << (fault.empty() ? "no error" : fault) << std::endl;
+      for (unsigned int full_rank = 0; full_rank < Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD); ++full_rank)
+        {
+          const std::string file  = "full/checkpoint/unfinished/points." + std::to_string(full_rank);
+          const std::string found = fault_of_full_disk(sums, rank == full_rank ? n_bytes : RLIM_INFINITY);
+          const std::string wanted =
+              full_rank == 0 || fault.empty() ? fault : file + fault.substr(fault.find(": cannot be written"));
+          AssertThrow(found == wanted, ExcMessage(found + " instead of " + wanted));
+        }
+    }
 }
 
 
 template <int dim>
-std::vector<double> test_return(const std::string &folder, std::ostream &out)
+std::vector<double> test_return(const std::string &folder)
 {
   Run<dim> run;
   run.fill();
@@ -294,10 +304,10 @@ std::vector<double> test_return(const std::string &folder, std::ostream &out)
   for (unsigned int step = 0; step < 4; ++step)
     {
       run.save(folder);
-      out << dim << "D " << outcome<dim>(folder, sums) << ", checkpoints:";
+      std::cout << dim << "D " << outcome<dim>(folder, sums) << ", checkpoints:";
       for (const std::string &name : whole_checkpoints(folder))
-        out << ' ' << name;
-      out << std::endl;
+        std::cout << ' ' << name;
+      std::cout << std::endl;
       run.step();
       sums.push_back(run.sum());
     }
@@ -307,13 +317,11 @@ std::vector<double> test_return(const std::string &folder, std::ostream &out)
 
 void run()
 {
-  std::ostream silent(nullptr);
-  std::ostream &out = is_first() ? std::cout : silent;
   for (const std::string folder : { "run_2d", "run_3d", "whole" })
     if (is_first())
       fs::remove_all(folder);
-  test_return<3>("run_3d", out);
-  const std::vector<double> sums = test_return<2>("run_2d", out);
+  test_return<3>("run_3d");
+  const std::vector<double> sums = test_return<2>("run_2d");
 
   Run<2> run;
   run.fill();
@@ -326,19 +334,33 @@ void run()
   std::vector<std::string> files{ "manifest", "entries", "state" };
   for (unsigned int rank = 0; rank < Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD); ++rank)
     files.push_back("points." + std::to_string(rank));
-  const auto test = [&](const std::string &what, const Damage &damage) {
+  const auto test = [&](const Damage &damage) {
     copy_folder("whole", "run");
     if (is_first())
       damage.second();
     MPI_Barrier(MPI_COMM_WORLD);
-    out << what << damage.first << ": " << without_sizes(outcome<2>("run", sums)) << std::endl;
+    return without_sizes(outcome<2>("run", sums));
   };
-  for (const std::string &file : files)
-    for (const Damage &damage : damage_to("run", file))
-      test(file + ", ", damage);
+  // What is said of the same damage to each file, FILE; the ranks' points count as one file, of which all say the same.
+  for (unsigned int i = 0; i < damage_to("run", "state").size(); ++i)
+    {
+      std::map<std::string, std::set<std::string>> files_of;
+      for (const std::string &file : files)
+        {
+          const Damage damage = damage_to("run", file)[i];
+          files_of[damage.first + ": " + std::regex_replace(test(damage), std::regex("/" + file + ":"), "/FILE:")]
+              .insert(file.substr(0, file.find('.')));
+        }
+      for (const auto &said : files_of)
+        {
+          for (const std::string &file : said.second)
+            std::cout << file << ' ';
+          std::cout << said.first << std::endl;
+        }
+    }
   for (const Damage &damage : damage_to_folders("run"))
-    test("", damage);
-  test_full_disk("whole", sums, out);
+    std::cout << damage.first << ": " << test(damage) << std::endl;
+  test_full_disk(sums);
 }
 
 const UnitTest registered("checkpoint_faults", run);

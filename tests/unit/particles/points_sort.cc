@@ -29,7 +29,7 @@ using namespace dealii;
 using namespace scree;
 
 template <int dim>
-void test(std::ostream &out)
+void test()
 {
   parallel::distributed::Triangulation<dim> mesh(MPI_COMM_WORLD);
   GridGenerator::hyper_cube(mesh, 0., 0.8);
@@ -157,20 +157,20 @@ void test(std::ostream &out)
             compare_lists();
           }
       }
-    out << Utilities::MPI::sum(n_differences, MPI_COMM_WORLD) << " differences, "
-        << points.handler().n_global_particles() << " points, "
-        << Utilities::MPI::sum(points.lost().size(), MPI_COMM_WORLD) << " lost" << std::endl;
+    std::cout << Utilities::MPI::sum(n_differences, MPI_COMM_WORLD) << " differences, "
+              << points.handler().n_global_particles() << " points, "
+              << Utilities::MPI::sum(points.lost().size(), MPI_COMM_WORLD) << " lost" << std::endl;
   };
 
-  out << dim << "D" << std::endl;
-  out << "stay in their cells: ";
+  std::cout << dim << "D" << std::endl;
+  std::cout << "stay in their cells: ";
   walk(10, 0.001);
   AssertThrow(n_steps_in_place == 10, ExcMessage("Records moved for nothing."));
-  out << "change cells and ranks: ";
+  std::cout << "change cells and ranks: ";
   walk(10, 0.01);
-  out << "leave the mesh, too: ";
+  std::cout << "leave the mesh, too: ";
   walk(10, 0.04);
-  out << "fly through several cells: ";
+  std::cout << "fly through several cells: ";
   walk(3, 0.25);
 
   // Points that were taken out and put back lie in memory as they came.
@@ -183,7 +183,7 @@ void test(std::ostream &out)
   peer.sort();
   compare();
   n_points_before.assign(mesh.n_active_cells(), 0);
-  out << "after a repartition: ";
+  std::cout << "after a repartition: ";
   walk(10, 0.01);
   // The walks must reach what they are for.
   AssertThrow(Utilities::MPI::sum(n_cells_of_one_point, MPI_COMM_WORLD) > 0 &&
@@ -193,10 +193,8 @@ void test(std::ostream &out)
 
 void run()
 {
-  std::ostringstream silent;
-  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
-  test<2>(out);
-  test<3>(out);
+  test<2>();
+  test<3>();
 }
 
 const UnitTest registered("points_sort", run);

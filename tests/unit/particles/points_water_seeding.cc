@@ -13,21 +13,14 @@
 #include <cmath>
 #include <iostream>
 
+#include "../elastic_soil.h"
+#include "../grid_box.h"
 #include "../unit_test.h"
 
 namespace test_points_water_seeding
 {
 using namespace dealii;
 using namespace scree;
-
-template <int dim>
-GridParameters box(const std::vector<double> &upper_corner)
-{
-  GridParameters parameters;
-  parameters.lower_corner.assign(dim, 0.);
-  parameters.upper_corner = upper_corner;
-  return parameters;
-}
 
 /// Fills the box with water of its own points and compares its volume, m^3.
 template <int dim>
@@ -36,10 +29,9 @@ void test(const std::string &name,
           const std::string &region,
           const std::vector<SoilRegion> &soil,
           const double expected,
-          const double tolerance,
-          std::ostream &out)
+          const double tolerance)
 {
-  const BackgroundGrid<dim> grid(box<dim>(upper_corner), MPI_COMM_WORLD);
+  const BackgroundGrid<dim> grid(grid_box(0., upper_corner), MPI_COMM_WORLD);
   WaterParameters parameters;
   parameters.region           = region;
   parameters.density          = 1025;
@@ -69,33 +61,27 @@ void test(const std::string &name,
   volume = Utilities::MPI::sum(volume, MPI_COMM_WORLD);
   AssertThrow(std::abs(volume / expected - 1.) < tolerance,
               ExcMessage(name + ": the volume is wrong by " + Utilities::to_string(volume / expected - 1.)));
-  out << dim << "D " << name << ": " << Utilities::MPI::sum(n, MPI_COMM_WORLD) << " points, volume OK" << std::endl;
+  std::cout << dim << "D " << name << ": " << Utilities::MPI::sum(n, MPI_COMM_WORLD) << " points, volume OK"
+            << std::endl;
 }
 
 
 /// Water on the points of a slope.
 template <int dim>
-void test_single_point(const std::vector<double> &upper_corner, std::ostream &out)
+void test_single_point(const std::vector<double> &upper_corner)
 {
-  const BackgroundGrid<dim> grid(box<dim>(upper_corner), MPI_COMM_WORLD);
-  constexpr double porosity = 0.37, grain_density = 2650;
-  MaterialParameters material;
-  material.law          = "linear elastic";
-  const bool is_affine  = true;
-  const auto n_further  = WaterLayout<dim>(0, is_affine).n_properties();
-  const auto soil_slots = PropertyLayout<dim>(0, is_affine).n_properties;
-  SoilBody<dim> soil("Soil",
-                     grain_density * (1. - porosity),
-                     grain_density,
-                     make_material<dim>(material),
-                     PropertyLayout<dim>(0, is_affine, n_further),
-                     grid.triangulation(),
-                     grid.mapping());
-  SeedingParameters seeding;
-  seeding.region           = dim == 2 ? "y < 0.6 - 0.3*x" : "z < 0.6 - 0.3*x";
-  seeding.points_per_cell  = 2;
-  seeding.initial_velocity = dim == 2 ? "x; -y" : "x; -y; 3*z";
-  seed(soil, seeding, grid.triangulation(), grid.cell_size());
+  const BackgroundGrid<dim> grid(grid_box(0., upper_corner), MPI_COMM_WORLD);
+  constexpr double porosity = 0.37;
+  const bool is_affine      = true;
+  const auto n_further      = WaterLayout<dim>(0, is_affine).n_properties();
+  const auto soil_slots     = PropertyLayout<dim>(0, is_affine).n_properties;
+  ElasticSoil<dim> soil(grid,
+                        dim == 2 ? "y < 0.6 - 0.3*x" : "z < 0.6 - 0.3*x",
+                        2,
+                        porosity,
+                        2650.,
+                        PropertyLayout<dim>(0, is_affine, n_further),
+                        dim == 2 ? "x; -y" : "x; -y; 3*z");
 
   WaterPhase<dim> water(1000., is_affine, soil);
   seed_water(water, WaterParameters(), {}, grid.triangulation(), grid.cell_size());
@@ -112,43 +98,38 @@ void test_single_point(const std::vector<double> &upper_corner, std::ostream &ou
       AssertThrow(properties[water.layout.velocity + a] == properties[soil.layout.velocity + a],
                   ExcMessage("The water does not move with the soil."));
   });
-  out << dim << "D single-point: OK" << std::endl;
+  std::cout << dim << "D single-point: OK" << std::endl;
 }
 
 
 /// The message, without its end, of what seeding refuses.
-void test_refusal(const std::string &region, const double porosity, std::ostream &out)
+void test_refusal(const std::string &region, const double porosity)
 {
   try
     {
-      std::ostream silent(nullptr);
-      test<2>("refusal", { 1, 1 }, region, { { "Block", "y < 0.5", porosity, 2000 } }, 1, 1, silent);
+      test<2>("refusal", { 1, 1 }, region, { { "Block", "y < 0.5", porosity, 2000 } }, 1, 1);
       throw ExcMessage("Water in " + region + " was not refused.");
     }
   catch (const EntryError &error)
     {
       const std::string message = error.what();
-      out << message.substr(0, message.find(". ")) << std::endl;
+      std::cout << message.substr(0, message.find(". ")) << std::endl;
     }
 }
 
 
 void run()
 {
-  std::ostream silent(nullptr);
-  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
-
   // Faces of cells: nothing to sample.
-  test<2>("pool", { 2, 1.5 }, "y < 0.7", {}, 1.4, 1e-12, out);
-  test<2>("column half submerged", { 2, 1.5 }, "y < 0.5", { { "Soil", "x < 1 && y < 1", 0.4, 1500 } }, 0.7, 1e-12, out);
+  test<2>("pool", { 2, 1.5 }, "y < 0.7", {}, 1.4, 1e-12);
+  test<2>("column half submerged", { 2, 1.5 }, "y < 0.5", { { "Soil", "x < 1 && y < 1", 0.4, 1500 } }, 0.7, 1e-12);
   test<2>("as the soil",
           { 2, 1.5 },
           "same",
           { { "Sand", "x < 1 && y < 1", 0.4, 1500 }, { "Clay", "x > 1 && y < 0.5", 0.1, 2000 } },
           0.45,
-          1e-12,
-          out);
-  test<3>("column", { 1, 0.5, 1 }, "z < 0.3", { { "Soil", "x < 0.5 && z < 0.5", 0.4, 1500 } }, 0.105, 1e-12, out);
+          1e-12);
+  test<3>("column", { 1, 0.5, 1 }, "z < 0.3", { { "Soil", "x < 0.5 && z < 0.5", 0.4, 1500 } }, 0.105, 1e-12);
   // Both surfaces cut cubes. 1e-3 as for soil.
   const double end = (0.83 - 0.3) / 0.37, soil = 0.3 * end + 0.37 * end * end / 2 + 0.83 * (1.7 - end);
   test<2>("beach",
@@ -156,24 +137,22 @@ void run()
           "y < 0.83 && x < 1.7",
           { { "Soil", "y < 0.3 + 0.37*x && y < 1", 0.4, 1500 } },
           0.83 * 1.7 - 0.6 * soil,
-          1e-3,
-          out);
+          1e-3);
   // Fewer points where the water fills little of a full cube: pores are no slivers.
-  test<2>("narrow pores", { 1, 1 }, "same", { { "Soil", "y < 0.5", 0.01, 2500 } }, 0.005, 1e-12, out);
+  test<2>("narrow pores", { 1, 1 }, "same", { { "Soil", "y < 0.5", 0.01, 2500 } }, 0.005, 1e-12);
   test<3>("boulder",
           { 1, 1, 1 },
           "1",
           { { "Soil", "(x - 0.51)^2 + (y - 0.49)^2 + (z - 0.5)^2 < 0.4^2", 0.2, 2000 } },
           1 - 0.8 * numbers::PI * 0.256 / 3,
-          1e-3,
-          out);
-  test_single_point<2>({ 1, 1 }, out);
-  test_single_point<3>({ 1, 0.2, 1 }, out);
+          1e-3);
+  test_single_point<2>({ 1, 1 });
+  test_single_point<3>({ 1, 0.2, 1 });
 
-  test_refusal("y < 0.7", 0., out);
-  test_refusal("same", 0., out);
-  test_refusal("y > 1.5", 0.4, out);
-  test<2>("above a body without pores", { 1, 1 }, "y > 0.5", { { "Block", "y < 0.5", 0, 2000 } }, 0.5, 1e-12, out);
+  test_refusal("y < 0.7", 0.);
+  test_refusal("same", 0.);
+  test_refusal("y > 1.5", 0.4);
+  test<2>("above a body without pores", { 1, 1 }, "y > 0.5", { { "Block", "y < 0.5", 0, 2000 } }, 0.5, 1e-12);
 }
 
 const UnitTest registered("points_water_seeding", run);

@@ -15,6 +15,8 @@
 #include <functional>
 #include <iostream>
 
+#include "../elastic_soil.h"
+#include "../grid_box.h"
 #include "../unit_test.h"
 
 namespace test_points_water_start
@@ -48,12 +50,9 @@ void compare(const std::string &name, const double error, const double largest)
 }
 
 template <int dim>
-void test(const Scene<dim> &scene, std::ostream &out)
+void test(const Scene<dim> &scene)
 {
-  GridParameters box;
-  box.lower_corner.assign(dim, 0.);
-  box.upper_corner = std::vector<double>(dim, 1.);
-  const BackgroundGrid<dim> grid(box, MPI_COMM_WORLD);
+  const BackgroundGrid<dim> grid(grid_box<dim>(0., 1.), MPI_COMM_WORLD);
   WaterParameters parameters;
   parameters.region          = scene.water_region;
   parameters.density         = water_density;
@@ -75,25 +74,14 @@ void test(const Scene<dim> &scene, std::ostream &out)
                   ExcMessage("The pressure gradient is not the weight of the water."));
   });
   compare<dim>(scene.name + ": the pressure", error, largest);
-  out << dim << "D " << scene.name << ": pressure OK, up to " << Utilities::MPI::max(largest, MPI_COMM_WORLD) << " Pa";
+  std::cout << dim << "D " << scene.name << ": pressure OK, up to " << Utilities::MPI::max(largest, MPI_COMM_WORLD)
+            << " Pa";
 
-  MaterialParameters material;
-  material.law = "linear elastic";
   Overburden<dim> soil_above(grid, effective_weight_layers<dim>(scene.soil, &parameters), scene.gravity, spacing);
   error = largest = 0;
   for (const SoilRegion &body : scene.soil)
     {
-      SoilBody<dim> soil("Soil",
-                         body.bulk_density,
-                         grain_density,
-                         make_material<dim>(material),
-                         PropertyLayout<dim>(0, false),
-                         grid.triangulation(),
-                         grid.mapping());
-      SeedingParameters seeding;
-      seeding.region          = body.region;
-      seeding.points_per_cell = 2;
-      seed(soil, seeding, grid.triangulation(), grid.cell_size());
+      ElasticSoil<dim> soil(grid, body.region, 2, 1. - body.bulk_density / grain_density, grain_density);
       set_k0_stress(soil, soil_above, K0, "");
       for_each_point(soil.points, [&](const auto &point) {
         const double *stress  = point.properties + soil.layout.stress;
@@ -105,63 +93,54 @@ void test(const Scene<dim> &scene, std::ostream &out)
     }
   if (!scene.soil.empty())
     compare<dim>(scene.name + ": the stress", error, largest);
-  out << "; stress OK, up to " << Utilities::MPI::max(largest, MPI_COMM_WORLD) << " Pa" << std::endl;
+  std::cout << "; stress OK, up to " << Utilities::MPI::max(largest, MPI_COMM_WORLD) << " Pa" << std::endl;
 }
 
 
 void run()
 {
-  std::ostream silent(nullptr);
-  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
-
   const double n = 0.4, water = g * water_density, dry = g * grain_density * (1 - n);
   const double lift = g * water_density * (1 - n), buoyant = dry - lift; // unit weights, N/m^3
   const Tensor<1, 2> down({ 0, -g }), right({ g, 0 });
 
-  test<2>({ "pool", "y < 0.73", {}, down, [&](const auto &x) { return water * (0.73 - x[1]); }, {} }, out);
+  test<2>({ "pool", "y < 0.73", {}, down, [&](const auto &x) { return water * (0.73 - x[1]); }, {} });
   test<2>({ "submerged",
             "y < 0.9",
             { layer("y < 0.5", n) },
             down,
             [&](const auto &x) { return water * (0.9 - x[1]); },
-            [&](const auto &x) { return buoyant * (0.5 - x[1]); } },
-          out);
+            [&](const auto &x) { return buoyant * (0.5 - x[1]); } });
   test<2>({ "submerged incline",
             "y < 0.9",
             { layer("y < 0.3 + 0.4*x", n) },
             down,
             [&](const auto &x) { return water * (0.9 - x[1]); },
-            [&](const auto &x) { return buoyant * (0.3 + 0.4 * x[0] - x[1]); } },
-          out);
+            [&](const auto &x) { return buoyant * (0.3 + 0.4 * x[0] - x[1]); } });
   test<2>({ "water table inside",
             "y < 0.47",
             { layer("y < 0.8", n) },
             down,
             [&](const auto &x) { return water * (0.47 - x[1]); },
-            [&](const auto &x) { return dry * (0.8 - x[1]) - lift * std::max(0., 0.47 - x[1]); } },
-          out);
+            [&](const auto &x) { return dry * (0.8 - x[1]) - lift * std::max(0., 0.47 - x[1]); } });
   const double other = g * (grain_density - water_density) * 0.8; // buoyant unit weight at a porosity of 0.2
   test<2>({ "saturated layers",
             "same",
             { layer("y < 0.4", n), layer("y >= 0.4 && y < 0.8", 0.2) },
             down,
             [&](const auto &x) { return water * (0.8 - x[1]); },
-            [&](const auto &x) { return buoyant * std::max(0., 0.4 - x[1]) + other * (0.8 - std::max(0.4, x[1])); } },
-          out);
+            [&](const auto &x) { return buoyant * std::max(0., 0.4 - x[1]) + other * (0.8 - std::max(0.4, x[1])); } });
   test<2>({ "gravity to the right",
             "x > 0.2",
             { layer("x > 0.5", n) },
             right,
             [&](const auto &x) { return water * (x[0] - 0.2); },
-            [&](const auto &x) { return buoyant * (x[0] - 0.5); } },
-          out);
+            [&](const auto &x) { return buoyant * (x[0] - 0.5); } });
   test<3>({ "submerged",
             "z < 0.9",
             { layer("z < 0.3 + 0.4*x", n) },
             Tensor<1, 3>({ 0, 0, -g }),
             [&](const auto &x) { return water * (0.9 - x[2]); },
-            [&](const auto &x) { return buoyant * (0.3 + 0.4 * x[0] - x[2]); } },
-          out);
+            [&](const auto &x) { return buoyant * (0.3 + 0.4 * x[0] - x[2]); } });
 }
 
 const UnitTest registered("points_water_start", run);

@@ -85,7 +85,7 @@ struct Scene : SoilScene<dim>
 
 /// The fraction f of a block's mass lies below its lower face plus f times its length, to within half a point's width.
 template <int dim>
-void test_percentiles(std::ostream &out)
+void test_percentiles()
 {
   const Scene<dim> scene({ "x > 0.1 && x < 0.5 && y < 0.3", "x > 0.5 && x < 0.8 && y < 0.3" });
   constexpr double half_width = 0.025;
@@ -101,15 +101,16 @@ void test_percentiles(std::ostream &out)
       const double lattice = (percentiles[i] - 0.1 - half_width) / 0.05;
       AssertThrow(std::abs(lattice - std::round(lattice)) < 1e-6, ExcMessage("A percentile is not at a point."));
     }
-  out << dim << "D percentiles: OK " << percentiles[0] << ' ' << percentiles[1] << ' ' << percentiles[3] << std::endl;
+  std::cout << dim << "D percentiles: OK " << percentiles[0] << ' ' << percentiles[1] << ' ' << percentiles[3]
+            << std::endl;
 }
 
 /// Where the mass adds up to the fraction exactly at a point, that point is the percentile, whatever the rounding.
 template <int dim>
-void test_tie(std::ostream &out)
+void test_tie()
 {
   const Scene<dim> scene({ "x > 0 && x < 0.5 && y < 0.3 && x + y > -2" });
-  out << dim << "D percentiles at a tie:";
+  std::cout << dim << "D percentiles at a tie:";
   for (unsigned int tenths = 1; tenths < 10; ++tenths)
     {
       const double percentile = mass_percentiles(scene.bodies, scene.grid, 0, { 0.1 * tenths })[0];
@@ -117,11 +118,11 @@ void test_tie(std::ostream &out)
                   ExcMessage("The tie at " + Utilities::to_string(0.1 * tenths) + " went to " +
                              Utilities::to_string(percentile)));
     }
-  out << " OK" << std::endl;
+  std::cout << " OK" << std::endl;
 }
 
 template <int dim>
-void test_oscillation(std::ostream &out)
+void test_oscillation()
 {
   // An oblique surface: linear fits next to it see half-filled cells.
   Scene<dim> scene({ "y < 0.5 - 0.6 * x", "y > 0.5 - 0.6 * x && y < 0.8 - 0.6 * x" });
@@ -159,22 +160,22 @@ void test_oscillation(std::ostream &out)
 
   block.set_pressure([](const Point<dim> &) { return 0.; });
   AssertThrow(stress_oscillation(block.bodies, block.grid) == 0., ExcMessage("Soil without stress oscillates."));
-  out << dim << "D oscillation: linear 0 OK, turns of points " << points << ", of cells " << cells << std::endl;
+  std::cout << dim << "D oscillation: linear 0 OK, turns of points " << points << ", of cells " << cells << std::endl;
 }
 
 template <int dim>
-void test_invariants(std::ostream &out)
+void test_invariants()
 {
   // Uniaxial compression by 3 and a pure shear: q^2 = 3^2 + 3 * 4^2 (von Mises).
   const double stress[6] = { -3, 0, 0, 4, 0, 0 };
   AssertThrow(std::abs(mean_effective_stress(stress) - 1.) < 1e-15, ExcMessage("P is wrong."));
   AssertThrow(std::abs(deviatoric_stress<dim>(stress) - std::sqrt(57.)) < 1e-14, ExcMessage("q is wrong."));
-  out << dim << "D invariants: OK" << std::endl;
+  std::cout << dim << "D invariants: OK" << std::endl;
 }
 
 /// Soil in 0 < x < 0.4, which is all grains, and water that reaches from its middle to x = 0.6.
 template <int dim>
-void test_water(std::ostream &out)
+void test_water()
 {
   Scene<dim> scene({ "x > 0 && x < 0.4 && y < 0.3" });
   WaterMeasures dry = measure_water(scene.bodies, scene.water, scene.grid);
@@ -201,13 +202,13 @@ void test_water(std::ostream &out)
          (2. * 0.2 + 1. * 0.2) / (0.4 + 2. * 0.4),
          1e-10,
          "volume error of doubly filled cells");
-  out << dim << "D water: outside soil " << wet.mass_outside_soil / wet.mass << ", volume error " << wet.volume_error
-      << std::endl;
+  std::cout << dim << "D water: outside soil " << wet.mass_outside_soil / wet.mass << ", volume error "
+            << wet.volume_error << std::endl;
 }
 
 /// Of p as of P; without soil.
 template <int dim>
-void test_pressure_oscillation(std::ostream &out)
+void test_pressure_oscillation()
 {
   Scene<dim> scene({});
   expect(pressure_oscillation(scene.water, scene.grid), 0., 0., "oscillation of no water");
@@ -224,12 +225,12 @@ void test_pressure_oscillation(std::ostream &out)
   expect(pressure_oscillation(scene.water, scene.grid), 1., 1e-10, "oscillation of a checkerboard");
   expect(stress_oscillation(scene.bodies, scene.grid), 0., 0., "oscillation of no soil");
   expect(mass_percentiles(scene.bodies, scene.grid, 0, { 0.9 })[0], -0.3, 1e-9, "front of no soil");
-  out << dim << "D oscillation of p: OK" << std::endl;
+  std::cout << dim << "D oscillation of p: OK" << std::endl;
 }
 
 /// Soil at 2 m/s that carries water at 3 m/s, single-point.
 template <int dim>
-void test_carried_water(std::ostream &out)
+void test_carried_water()
 {
   Scene<dim> scene({ "x > 0 && x < 0.4 && y < 0.3" });
   SoilBody<dim> &soil          = scene.add_wet_soil("x > 0.5 && x < 0.8 && y < 0.3", 0.5);
@@ -250,28 +251,26 @@ void test_carried_water(std::ostream &out)
   expect(sums.momentum[0], (1000. * 2. + 500. * 3.) * volume, 1e-8, "momentum of soil and water");
   expect(sums.kinetic, 0.5 * (1000. * 4. + 500. * 9.) * volume, 1e-8, "kinetic energy of soil and water");
   expect(sums.largest_porosity, 0.5, 1e-12, "porosity");
-  out << dim << "D carried water: OK" << std::endl;
+  std::cout << dim << "D carried water: OK" << std::endl;
 }
 
 
 void run()
 {
-  std::ostream silent(nullptr);
-  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
-  test_invariants<2>(out);
-  test_invariants<3>(out);
-  test_percentiles<2>(out);
-  test_percentiles<3>(out);
-  test_oscillation<2>(out);
-  test_oscillation<3>(out);
-  test_tie<2>(out);
-  test_tie<3>(out);
-  test_water<2>(out);
-  test_water<3>(out);
-  test_pressure_oscillation<2>(out);
-  test_pressure_oscillation<3>(out);
-  test_carried_water<2>(out);
-  test_carried_water<3>(out);
+  test_invariants<2>();
+  test_invariants<3>();
+  test_percentiles<2>();
+  test_percentiles<3>();
+  test_oscillation<2>();
+  test_oscillation<3>();
+  test_tie<2>();
+  test_tie<3>();
+  test_water<2>();
+  test_water<3>();
+  test_pressure_oscillation<2>();
+  test_pressure_oscillation<3>();
+  test_carried_water<2>();
+  test_carried_water<3>();
 }
 
 const UnitTest registered("output_measures", run);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Columns of one file: registered here, they are the last ones of each row of the statistics, in order of their names.
+#include "../grid_box.h"
 #include "../unit_test.h"
 
 #include <scree/io/run_folder.h>
@@ -27,10 +28,7 @@ const RegisterColumns registered_cells(
 template <int dim>
 void print_last_columns(std::ostream &out)
 {
-  GridParameters box;
-  box.lower_corner.assign(dim, 0.);
-  box.upper_corner.assign(dim, 0.4);
-  const BackgroundGrid<dim> grid(box, MPI_COMM_WORLD);
+  const BackgroundGrid<dim> grid(grid_box<dim>(0., 0.4), MPI_COMM_WORLD);
   Statistics<dim> statistics(grid, Tensor<1, dim>(), {});
   for (const bool asks : { false, true })
     {

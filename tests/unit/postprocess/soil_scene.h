@@ -10,6 +10,8 @@
 #include <list>
 #include <string>
 
+#include "../grid_box.h"
+
 /// Linear elastic bodies of 1000 kg/m^3, and water, in a box with cells of 0.1 m.
 template <int dim>
 struct SoilScene
@@ -20,7 +22,7 @@ struct SoilScene
 
   /// @param lower, upper coordinates of the corners along each axis, m
   SoilScene(const double lower, const double upper)
-      : grid(box(lower, upper), MPI_COMM_WORLD)
+      : grid(grid_box<dim>(lower, upper), MPI_COMM_WORLD)
   {
   }
 
@@ -46,14 +48,6 @@ struct SoilScene
   }
 
 private:
-  static scree::GridParameters box(const double lower, const double upper)
-  {
-    scree::GridParameters parameters;
-    parameters.lower_corner.assign(dim, lower);
-    parameters.upper_corner.assign(dim, upper);
-    return parameters;
-  }
-
   scree::SoilBody<dim> &add_body(const std::string &region,
                                  const double grain_density,
                                  const unsigned int n_water,

@@ -85,27 +85,11 @@ const UnitTest registered("order_manufactured", run);
 
 
 // Output:
-// FLIP, 4 points, velocity: error 1.049e-01 order 0.00
-// FLIP, 4 points, velocity: error 1.192e-01 order -0.18
-// FLIP, 4 points, velocity: error 1.069e-01 order 0.16
-// FLIP, 4 points, stress: error 4.955e-02 order 0.00
-// FLIP, 4 points, stress: error 1.494e-02 order 1.73
-// FLIP, 4 points, stress: error 1.334e-02 order 0.16
-// TPIC, 4 points, velocity: error 6.186e-02 order 0.00
-// TPIC, 4 points, velocity: error 3.689e-02 order 0.75
-// TPIC, 4 points, velocity: error 2.975e-02 order 0.31
-// TPIC, 4 points, stress: error 3.752e-02 order 0.00
-// TPIC, 4 points, stress: error 1.205e-02 order 1.64
-// TPIC, 4 points, stress: error 6.937e-03 order 0.80
-// FLIP, 4, 8, 16 points, velocity: error 1.049e-01 order 0.00
-// FLIP, 4, 8, 16 points, velocity: error 5.613e-02 order 0.90
-// FLIP, 4, 8, 16 points, velocity: error 2.344e-02 order 1.26
-// FLIP, 4, 8, 16 points, stress: error 4.955e-02 order 0.00
-// FLIP, 4, 8, 16 points, stress: error 1.202e-02 order 2.04
-// FLIP, 4, 8, 16 points, stress: error 3.120e-03 order 1.95
-// TPIC, 4, 8, 16 points, velocity: error 6.186e-02 order 0.00
-// TPIC, 4, 8, 16 points, velocity: error 1.692e-02 order 1.87
-// TPIC, 4, 8, 16 points, velocity: error 4.057e-03 order 2.06
-// TPIC, 4, 8, 16 points, stress: error 3.752e-02 order 0.00
-// TPIC, 4, 8, 16 points, stress: error 1.012e-02 order 1.89
-// TPIC, 4, 8, 16 points, stress: error 2.531e-03 order 2.00
+// FLIP, 4 points, velocity: errors 1.049e-01 1.192e-01 1.069e-01, orders -0.18 0.16
+// FLIP, 4 points, stress: errors 4.955e-02 1.494e-02 1.334e-02, orders 1.73 0.16
+// TPIC, 4 points, velocity: errors 6.186e-02 3.689e-02 2.975e-02, orders 0.75 0.31
+// TPIC, 4 points, stress: errors 3.752e-02 1.205e-02 6.937e-03, orders 1.64 0.80
+// FLIP, 4, 8, 16 points, velocity: errors 1.049e-01 5.613e-02 2.344e-02, orders 0.90 1.26
+// FLIP, 4, 8, 16 points, stress: errors 4.955e-02 1.202e-02 3.120e-03, orders 2.04 1.95
+// TPIC, 4, 8, 16 points, velocity: errors 6.186e-02 1.692e-02 4.057e-03, orders 1.87 2.06
+// TPIC, 4, 8, 16 points, stress: errors 3.752e-02 1.012e-02 2.531e-03, orders 1.89 2.00

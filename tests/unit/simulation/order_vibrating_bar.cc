@@ -50,27 +50,9 @@ const UnitTest registered("order_vibrating_bar", run);
 
 
 // Output:
-// FLIP velocity: error 2.503e-01 order 0.00
-// FLIP velocity: error 8.519e-02 order 1.55
-// FLIP velocity: error 2.329e-02 order 1.87
-// FLIP velocity: error 6.654e-03 order 1.81
-// FLIP stress: error 3.034e-01 order 0.00
-// FLIP stress: error 7.164e-02 order 2.08
-// FLIP stress: error 1.754e-02 order 2.03
-// FLIP stress: error 4.533e-03 order 1.95
-// TPIC velocity: error 8.186e-02 order 0.00
-// TPIC velocity: error 2.643e-02 order 1.63
-// TPIC velocity: error 7.186e-03 order 1.88
-// TPIC velocity: error 1.846e-03 order 1.96
-// TPIC stress: error 1.505e-01 order 0.00
-// TPIC stress: error 4.211e-02 order 1.84
-// TPIC stress: error 1.110e-02 order 1.92
-// TPIC stress: error 3.102e-03 order 1.84
-// AFLIP velocity: error 1.411e-01 order 0.00
-// AFLIP velocity: error 4.212e-02 order 1.74
-// AFLIP velocity: error 1.122e-02 order 1.91
-// AFLIP velocity: error 2.877e-03 order 1.96
-// AFLIP stress: error 1.141e-01 order 0.00
-// AFLIP stress: error 2.905e-02 order 1.97
-// AFLIP stress: error 7.463e-03 order 1.96
-// AFLIP stress: error 2.264e-03 order 1.72
+// FLIP velocity: errors 2.503e-01 8.519e-02 2.329e-02 6.654e-03, orders 1.55 1.87 1.81
+// FLIP stress: errors 3.034e-01 7.164e-02 1.754e-02 4.533e-03, orders 2.08 2.03 1.95
+// TPIC velocity: errors 8.186e-02 2.643e-02 7.186e-03 1.846e-03, orders 1.63 1.88 1.96
+// TPIC stress: errors 1.505e-01 4.211e-02 1.110e-02 3.102e-03, orders 1.84 1.92 1.84
+// AFLIP velocity: errors 1.411e-01 4.212e-02 1.122e-02 2.877e-03, orders 1.74 1.91 1.96
+// AFLIP stress: errors 1.141e-01 2.905e-02 7.463e-03 2.264e-03, orders 1.97 1.96 1.72

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "../grid_box.h"
 #include "../random_numbers.h"
 
 #include "../materials/one_point.h"
@@ -265,11 +266,7 @@ double test(const std::string &basis,
             RandomNumbers &random,
             Visited &visited)
 {
-  GridParameters grid_parameters;
-  grid_parameters.basis = basis;
-  grid_parameters.lower_corner.assign(dim, 0.);
-  grid_parameters.upper_corner.assign(dim, dim == 2 ? 0.9 : 0.5);
-  const BackgroundGrid<dim> grid(grid_parameters, MPI_COMM_WORLD);
+  const BackgroundGrid<dim> grid(grid_box<dim>(0., dim == 2 ? 0.9 : 0.5, 0.1, basis), MPI_COMM_WORLD);
   TransferParameters transfer_parameters;
   transfer_parameters.method   = method;
   transfer_parameters.pic_rate = pic_rate;

@@ -15,22 +15,13 @@
 #include <cmath>
 #include <iostream>
 
+#include "../grid_box.h"
 #include "../unit_test.h"
 
 namespace test_transfer_load
 {
 using namespace dealii;
 using namespace scree;
-
-template <int dim>
-GridParameters box(const std::string &basis)
-{
-  GridParameters parameters;
-  parameters.lower_corner.assign(dim, -0.2);
-  parameters.upper_corner = std::vector<double>(dim, 0.8);
-  parameters.basis        = basis;
-  return parameters;
-}
 
 /// A load of `traction` on the patch; `force` and `area` are what it should add up to.
 template <int dim>
@@ -39,15 +30,15 @@ void test(const std::string &basis,
           const std::vector<double> &upper_corner,
           const std::string &traction,
           const double area,
-          const Tensor<1, dim> &force,
-          std::ostream &out)
+          const Tensor<1, dim> &force)
 {
-  const BackgroundGrid<dim> grid(box<dim>(basis), MPI_COMM_WORLD);
+  const GridParameters box = grid_box<dim>(-0.2, 0.8, 0.1, basis);
+  const BackgroundGrid<dim> grid(box, MPI_COMM_WORLD);
   SurfaceLoadParameters parameters;
   parameters.lower_corner = lower_corner;
   parameters.upper_corner = upper_corner;
   parameters.traction     = traction;
-  parameters.check(box<dim>(basis), dim);
+  parameters.check(box, dim);
   SurfaceLoad<dim> load(grid, parameters, 4);
 
   double sum_of_areas = 0;
@@ -108,23 +99,20 @@ void test(const std::string &basis,
   const auto n_before = load.points().handler().n_global_particles();
   load.points().hand_over();
   AssertThrow(load.points().handler().n_global_particles() == n_before, ExcMessage("Markers are lost."));
-  out << dim << "D " << basis << ": " << n_before << " markers, OK" << std::endl;
+  std::cout << dim << "D " << basis << ": " << n_before << " markers, OK" << std::endl;
 }
 
 
 void run()
 {
-  std::ostream silent(nullptr);
-  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : silent;
-
   for (const std::string basis : { "spline", "linear" })
     {
-      test<2>(basis, { 0., 0.5 }, { 0.63, 0.5 }, "100; -50*t", 0.63, Tensor<1, 2>({ 63., -63. }), out);
+      test<2>(basis, { 0., 0.5 }, { 0.63, 0.5 }, "100; -50*t", 0.63, Tensor<1, 2>({ 63., -63. }));
       // On the lower face of the box, and at a height inside a cell.
-      test<2>(basis, { -0.2, -0.2 }, { -0.2, 0.8 }, "1; 2*t", 1., Tensor<1, 2>({ 1., 4. }), out);
-      test<2>(basis, { 0.11, 0.47 }, { 0.12, 0.47 }, "0; -3", 0.01, Tensor<1, 2>({ 0., -0.03 }), out);
+      test<2>(basis, { -0.2, -0.2 }, { -0.2, 0.8 }, "1; 2*t", 1., Tensor<1, 2>({ 1., 4. }));
+      test<2>(basis, { 0.11, 0.47 }, { 0.12, 0.47 }, "0; -3", 0.01, Tensor<1, 2>({ 0., -0.03 }));
     }
-  test<3>("spline", { 0., -0.2, 0.8 }, { 0.55, 0.8, 0.8 }, "x; 1; t", 0.55, Tensor<1, 3>({ 0.15125, 0.55, 1.1 }), out);
+  test<3>("spline", { 0., -0.2, 0.8 }, { 0.55, 0.8, 0.8 }, "x; 1; t", 0.55, Tensor<1, 3>({ 0.15125, 0.55, 1.1 }));
 }
 
 const UnitTest registered("transfer_load", run);
