@@ -228,6 +228,37 @@ def bed_wet_friction(scree):
             check(name + ": gain of energy over released", gain(table), 0, 1e-3)
 
 
+def bed_stiff_slab(scree):
+    """An undrained stiff slab with free ends on friction 25, on a slope of 35 degrees: it stretches until the mean of sigma_xx over the
+    thickness is 0, so that N'/W = r + (1 - (1 - K0) r)/4 with r = rho'/rho, and the speed is t g (sin 35 - mu N'/W cos 35).
+    """
+    k0, porosity, grains, end, depth, length = 0.5, 0.4, 2650., 0.3, 0.3, 3.
+    slope, mu = math.radians(35), math.tan(math.radians(25))
+    buoyant = (1 - porosity) * (grains - 1000)
+    share = buoyant / (buoyant + 1000)
+    exact = end * GRAVITY * (math.sin(slope) - mu * (share + (1 - (1 - k0) * share) / 4) * math.cos(slope))
+    down = (math.cos(slope), -math.sin(slope))
+    plane = Plane((0.3, 2.35), (-down[1], down[0]), down, 0)
+    along, above = plane.along(plane.down), plane.along(plane.normal)
+    for name, entries in (("TPIC", {"Transfer/Method": "TPIC"}), ("AFLIP", {}), ("steps of a quarter", {"Time step/Courant number": "0.15"}),
+                          ("cells of a half", {"Mesh/Cell size": "0.05"})):
+        table = run(scree, "seepage/saturated_rest", "stiff_slab",
+                    {"End time": "%g" % end, "Gravity": "0, %g" % -GRAVITY, "Mesh/Upper corner": "5.5, 3", "Mesh/Cell size": "0.1",
+                     "Boundaries/Bottom": "open", "Boundaries/Left": "open", "Boundaries/Right": "open",
+                     "Boundaries/Water/Left": "drained", "Boundaries/Water/Right": "drained", "Boundaries/Water/Bottom": "drained",
+                     "Bed/Type": "friction", "Bed/Friction angle": "25", "Bed/Level set expression": above,
+                     "Soil/Region": "%s > 0 && %s < %g && %s < %g" % (along, along, length, above, depth),
+                     "Soil/Material": "Mohr-Coulomb", "Soil/Grain density": "%g" % grains, "Soil/Initial porosity": "%g" % porosity,
+                     "Soil/Points per cell": "3", "Soil/Initial state/Type": "K0", "Soil/Initial state/K0": "%g" % k0,
+                     "Soil/Mohr-Coulomb/Young's modulus": "1e7", "Soil/Mohr-Coulomb/Poisson's ratio": "0.3",
+                     "Soil/Mohr-Coulomb/Friction angle": "25", "Soil/Mohr-Coulomb/Dilation angle": "0", "Soil/Mohr-Coulomb/Cohesion": "20e3",
+                     "Soil/Mohr-Coulomb/Tension cut-off": "20e3",
+                     "Water/Hydraulic conductivity": "1e-6", "Water/Points per cell": "3", "Output/Statistics interval": "0.02", **entries})
+        speed = plane.column(table, "Momentum", plane.down)[-1] / (table["Mass (kg)"][-1] + table["Water mass (kg)"][-1])
+        check("stiff slab, %s: speed over exact" % name, speed / exact, 0.93, 1.03, 0.97)
+        check("stiff slab, %s: gain of energy over released" % name, gain(table), 0, 1e-3)
+
+
 def bed_water_3d(scree):
     """A tank at rest and a slab of water on a smooth plane that is oblique to all axes."""
     box = {"Dimension": "3", "Mesh/Lower corner": "0, 0, 0", "Bed/Type": "free slip", "Water/Points per cell": "2",
