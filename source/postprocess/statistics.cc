@@ -8,10 +8,6 @@ namespace scree
 {
   using namespace dealii;
 
-  template struct RunBalance<2>;
-  template struct RunBalance<3>;
-
-
   namespace
   {
     constexpr double rest_part     = 1e-3; // of sqrt(g h): soil at rest takes more than 1000 sqrt(h/g) for a cell
@@ -94,9 +90,7 @@ namespace scree
       speeds.push_back({ speed, mass });
       largest = std::max(largest, speed);
     };
-    for (const SoilBody<dim> &body : bodies)
-      if (!body.is_rigid)
-        for_each_point(body.points, [&](const auto &point) { include(body, point); });
+    for_each_moving_point(bodies, include);
     Utilities::MPI::sum(sums, grid.communicator(), sums);
     largest = Utilities::MPI::max(largest, grid.communicator());
 
@@ -178,8 +172,7 @@ namespace scree
       return {};
     return { { "thickness of the moving soil " + short_text(thickness_then) + " cells",
                "at least " + short_text(least_cells) + ", else smaller cells",
-               thickness_then < least_cells,
-               "" } };
+               thickness_then < least_cells } };
   }
 
 
@@ -281,8 +274,8 @@ namespace scree
                              last_step,
                              PointSums<dim>(bodies, water, gravity, grid.communicator()),
                              water.empty() ? WaterMeasures() : measure_water(bodies, water, grid),
-                             bodies.empty() ? std::vector<double>() : mass_percentiles(bodies, grid, 0, fronts),
-                             water.empty() ? std::vector<double>() : mass_percentiles(water, grid, 0, fronts),
+                             bodies.empty() ? std::vector<double>() : mass_percentiles(bodies, grid, fronts),
+                             water.empty() ? std::vector<double>() : mass_percentiles(water, grid, fronts),
                              bodies.empty() ? MotionNumbers() : motion.look(bodies, time),
                              local.sum_over_ranks(grid.communicator()),
                              time,

@@ -32,8 +32,8 @@ namespace scree
       {
         constexpr double part_behind_front = 0.90; // of the mass
         if (!shows_speed)
-          return scene.bodies.empty() ? mass_percentiles(scene.water, scene.grid, 0, { part_behind_front })[0]
-                                      : mass_percentiles(scene.bodies, scene.grid, 0, { part_behind_front })[0];
+          return scene.bodies.empty() ? mass_percentiles(scene.water, scene.grid, { part_behind_front })[0]
+                                      : mass_percentiles(scene.bodies, scene.grid, { part_behind_front })[0];
         double largest  = 0.;
         const auto look = [&](const PointSet<dim> &points, const unsigned int velocity) {
           for_each_point(points, [&](const auto &point) {
@@ -206,7 +206,7 @@ namespace scree
     totals.balance += step.balance;
     if (is_released && scene.forcing.mass_scaling() > 1.)
       totals.balance.motion += 0.5 * time_step * scheme->nodal_forces(time_step).kinetic;
-    totals.add(step.material);
+    totals.material.add(step.material);
     last_update = step.material;
     point_updates += step.n_updates;
     account_for_lost_points(scene, totals, clock.time());

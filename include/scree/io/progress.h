@@ -14,10 +14,10 @@ namespace scree
   /// What a run has found in a check of itself.
   struct CheckResult
   {
-    std::string text;         ///< name and worst value, in words
-    std::string bound;        ///< what a sound run does not exceed, in words; empty: the value is for information
-    bool is_exceeded = false; ///< whether the bound is
-    std::string where;        ///< point, place and time of the worst value; may be empty
+    std::string text;          ///< name and worst value, in words
+    std::string bound;         ///< what a sound run does not exceed, in words; empty: the value is for information
+    bool is_exceeded  = false; ///< whether the bound is
+    std::string where = "";    ///< point, place and time of the worst value; may be empty
 
     /// Saves or loads all of it (Boost).
     template <class Archive>
