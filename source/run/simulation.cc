@@ -35,15 +35,11 @@ namespace scree
           return scene.bodies.empty() ? mass_percentiles(scene.water, scene.grid, { part_behind_front })[0]
                                       : mass_percentiles(scene.bodies, scene.grid, { part_behind_front })[0];
         double largest  = 0.;
-        const auto look = [&](const PointSet<dim> &points, const unsigned int velocity) {
-          for_each_point(points, [&](const auto &point) {
-            largest = std::max(largest, vector_of<dim>(point.properties + velocity).norm());
-          });
+        const auto look = [&](const auto &phase, const auto &point) {
+          largest = std::max(largest, vector_of<dim>(point.properties + phase.layout.velocity).norm());
         };
-        for (const auto &body : scene.bodies)
-          look(body.points, body.layout.velocity);
-        for (const auto &part : scene.water)
-          look(part.points(), part.layout.velocity);
+        for_each_moving_point(scene.bodies, look);
+        for_each_moving_point(scene.water, look);
         return Utilities::MPI::max(largest, scene.grid.communicator());
       }
 
