@@ -207,8 +207,6 @@ namespace scree
     return pressure;
   }
 
-  class Picture;
-
   /// The folder `solution` of a run: `.pvtu` files of points, of water points and of grid cells that hold points, and a
   /// `.pvd` of each.
   template <int dim>
