@@ -230,10 +230,7 @@ namespace scree
     std::vector<Name> all;
     for (const std::string &name : names)
       all.push_back({ "", name, "", "" });
-    std::vector<std::string> result;
-    for (const Name &name : closest(all, "", written))
-      result.push_back(name.name);
-    return result;
+    return names_of(closest(all, "", written));
   }
 
 

@@ -159,7 +159,6 @@ namespace scree
   std::string csv_head(const std::vector<std::string> &columns)
   {
     std::vector<std::string> names;
-    std::string line;
     for (const std::string &column : columns)
       {
         const std::string wanted = csv_name(column);
@@ -167,9 +166,8 @@ namespace scree
         for (unsigned int n = 2; std::find(names.begin(), names.end(), name) != names.end(); ++n)
           name = wanted + '_' + std::to_string(n);
         names.push_back(name);
-        line += (line.empty() ? "" : ",") + name;
       }
-    return line + '\n';
+    return boost::algorithm::join(names, ",") + '\n';
   }
 
 

@@ -367,26 +367,15 @@ namespace scree
 
   void SeedingParameters::check(const std::string &body, const unsigned int dim) const
   {
-    const std::string where_region = entry_name(body, "Region");
-    const std::string where_speed  = entry_name(body, "Initial velocity");
     require_entry(region != SeedingParameters().region || source.is_region() || is_fed,
                   { body, "Region", region },
                   "the body has no region. Write one, for instance x < 1 && y < 1");
     require_entry(initial_porosity == -1 || initial_porosity >= 0,
                   { body, "Initial porosity", initial_porosity },
                   "write a number from 0 to 0.999, or -1 for what the material law implies.");
-    if (dim == 2)
-      {
-        Region<2>(where_region, region);
-        if (!initial_velocity.empty())
-          parse_expression<2>(where_speed, initial_velocity, 2);
-      }
-    else
-      {
-        Region<3>(where_region, region);
-        if (!initial_velocity.empty())
-          parse_expression<3>(where_speed, initial_velocity, 3);
-      }
+    check_expression(dim, entry_name(body, "Region"), region, 1);
+    if (!initial_velocity.empty())
+      check_expression(dim, entry_name(body, "Initial velocity"), initial_velocity, dim);
   }
 
 
