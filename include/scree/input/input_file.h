@@ -52,8 +52,6 @@ namespace scree
   /// What to write instead of a `value` that does not match the pattern of the entry, and what the entry means.
   std::string value_remedy(const DeclaredNames::Name &entry, const std::string &value);
 
-  class DeclaredNames;
-
   /// The statements of a `.prm` file: finds faults before deal.II does, and says where they are and what helps.
   class InputFile
   {

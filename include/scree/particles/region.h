@@ -113,16 +113,6 @@ namespace scree
                                        const unsigned int n,
                                        const PartOfCube<dim> &part_of_cube);
 
-  /// Throws ValueError if the velocity of a seed is no number.
-  /// @param velocity null: at rest
-  template <int dim>
-  void require_velocities(const dealii::Function<dim> *velocity, const std::vector<Seed<dim>> &seeds)
-  {
-    for (const Seed<dim> &seed : seeds)
-      for (unsigned int a = 0; velocity && a < dim; ++a)
-        velocity->value(seed.location, a);
-  }
-
   /// Writes a new point's properties, which are 0 before.
   template <int dim>
   using FillProperties = std::function<void(const Seed<dim> &seed, std::vector<double> &properties)>;
