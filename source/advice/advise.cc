@@ -100,24 +100,6 @@ namespace scree
   } // namespace
 
 
-  double StepCost::rest() const
-  {
-    double sum = seconds;
-    for (const auto &[part, of_part] : parts)
-      sum -= of_part;
-    return std::max(0., sum);
-  }
-
-
-  double Observation::duration() const
-  {
-    double sum = 0;
-    for (const SpeedInterval &interval : intervals)
-      sum += interval.duration;
-    return sum;
-  }
-
-
   RunCost cost_of_run(const SceneNumbers &scene, const Observation &seen, const Schedule &schedule)
   {
     const TimeStepper clock(schedule.time_step);

@@ -629,12 +629,6 @@ namespace scree
   } // namespace
 
 
-  Outline::Outline(std::vector<std::vector<Polygon>> areas)
-      : areas(std::move(areas))
-  {
-  }
-
-
   bool Outline::contains(const Point<2> &x) const
   {
     const auto has_place = [&](const Polygon &polygon) { return polygon.contains(x); };

@@ -130,13 +130,6 @@ namespace scree
   }
 
 
-  bool GridParameters::is_adaptive() const
-  {
-    constexpr double few = 2e4;
-    return n_cells() > few;
-  }
-
-
   template <int dim>
   BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters,
                                       const unsigned int n_levels,

@@ -10,14 +10,6 @@ namespace scree
 {
   using namespace dealii;
 
-  double CellContents::saturation(const double cell_volume) const
-  {
-    const double pores = n_soil_points > 0 ? soil_volume - grain_volume : cell_volume;
-    if (pores <= 0) // soil crushed to its grains: what water there is overflows
-      return water_volume > 0 ? 1. : 0.;
-    return std::min(1., water_volume / pores);
-  }
-
 
   template <int dim>
   std::vector<CellContents> contents_of_cells(const std::list<SoilBody<dim>> &bodies,
@@ -168,17 +160,6 @@ namespace scree
 
   template struct PointSums<2>;
   template struct PointSums<3>;
-
-
-  template <int dim>
-  Point<dim> CellColumns<dim>::middle(const std::size_t column) const
-  {
-    Point<dim> x;
-    std::size_t rest = column;
-    for (unsigned int a = 0; a + 1 < dim; ++a, rest /= n[a - 1])
-      x[a] = grid.lower_corner()[a] + (rest % n[a] + 0.5) * grid.cell_size();
-    return x;
-  }
 
 
   template <int dim>

@@ -488,13 +488,6 @@ namespace scree
   }
 
 
-  template <int dim>
-  void Probes<dim>::add_table(Group &group, const std::string &name)
-  {
-    group.tables.push_back(&tables.emplace_back(folder, "probe_" + name));
-  }
-
-
   template class Probes<2>;
   template class Probes<3>;
 } // namespace scree

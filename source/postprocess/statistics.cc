@@ -45,18 +45,6 @@ namespace scree
 
 
   template <int dim>
-  SoilMotion<dim>::SoilMotion(const BackgroundGrid<dim> &grid,
-                              const Tensor<1, dim> &gravity,
-                              const DiscreteLevelSet<dim> *bed)
-      : grid(grid)
-      , gravity(gravity)
-      , bed(bed)
-      , columns(grid)
-  {
-  }
-
-
-  template <int dim>
   double SoilMotion<dim>::rest_speed() const
   {
     return rest_part * std::sqrt(gravity.norm() * grid.cell_size());
@@ -303,26 +291,6 @@ namespace scree
                   ExcMessage("Column '" + column + "' of statistics is not a number at t = " + number_text(time) +
                              " s: the motion was unstable before. The rows above it tell since when. Remedies: a "
                              "smaller 'Courant number' in subsection Time step; look at what moves there."));
-  }
-
-
-  template <int dim>
-  std::vector<std::string> Statistics<dim>::columns() const
-  {
-    std::vector<std::string> result;
-    for (const auto &[column, value] : last_row)
-      result.push_back(column);
-    return result;
-  }
-
-
-  template <int dim>
-  std::vector<double> Statistics<dim>::values() const
-  {
-    std::vector<double> result;
-    for (const auto &[column, value] : last_row)
-      result.push_back(value);
-    return result;
   }
 
 

@@ -142,26 +142,6 @@ namespace scree
 
 
   template <int dim>
-  Relaxation<dim>::Relaxation(const Parameters &parameters,
-                              Scene<dim> &scene,
-                              Scheme<dim> &scheme,
-                              StepControl<dim> &control,
-                              RunFolder &folder,
-                              const std::function<void(double)> &advance)
-      : parameters(parameters)
-      , scene(scene)
-      , scheme(scheme)
-      , control(control)
-      , folder(folder)
-      , advance(advance)
-      , communicator(scene.grid.communicator())
-      , gravity(scene.forcing.gravity().norm())
-  {
-    scene.mark_start();
-  }
-
-
-  template <int dim>
   TimeStepper Relaxation<dim>::relax(const double maximum_time,
                                      const unsigned int steps_between_looks,
                                      const std::function<bool(const TimeStepper &, double)> &is_over)

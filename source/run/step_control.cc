@@ -50,30 +50,6 @@ namespace scree
 
 
   template <int dim>
-  StepControl<dim>::StepControl(const Scene<dim> &scene,
-                                const TimeStepper &clock,
-                                StopRequests &stop,
-                                TimerOutput &timer,
-                                const MPI_Comm communicator)
-      : scene(scene)
-      , clock(clock)
-      , stop(stop)
-      , timer(timer)
-      , communicator(communicator)
-  {
-  }
-
-
-  template <int dim>
-  void StepControl<dim>::measure_speeds()
-  {
-    const Speeds of_rank = scene.speeds();
-    std::vector<double> largest{ of_rank.wave, of_rank.points };
-    agree_on(largest);
-  }
-
-
-  template <int dim>
   void StepControl<dim>::agree_on(std::vector<double> &largest)
   {
     const TimedPart part(timer, TimerSection::waiting);
@@ -86,30 +62,6 @@ namespace scree
     scene.include_inflows(speeds);
     reason = static_cast<StopReason>(largest.back());
     largest.pop_back();
-  }
-
-
-  template <int dim>
-  Speeds StepControl<dim>::limiting_speeds() const
-  {
-    Speeds all = speeds;
-    scene.include_obstacles(all, clock.time());
-    return all;
-  }
-
-
-  template <int dim>
-  double StepControl<dim>::stable_step(const TimeStepper &other_clock) const
-  {
-    const Speeds all = limiting_speeds();
-    return other_clock.stable_step(scene.grid.cell_size(), all.wave, all.points);
-  }
-
-
-  template <int dim>
-  StepLimit StepControl<dim>::limit() const
-  {
-    return clock.limit(scene.grid.cell_size(), speeds.wave, speeds.points);
   }
 
 
@@ -145,19 +97,6 @@ namespace scree
 
   template class StepControl<2>;
   template class StepControl<3>;
-
-
-  template <int dim>
-  MeshAdaptation<dim>::MeshAdaptation(Scene<dim> &scene,
-                                      Scheme<dim> &scheme,
-                                      TimerOutput &timer,
-                                      const MPI_Comm communicator)
-      : scene(scene)
-      , scheme(scheme)
-      , timer(timer)
-      , communicator(communicator)
-  {
-  }
 
 
   template <int dim>
@@ -199,16 +138,6 @@ namespace scree
     return around;
   }
 
-
-  template <int dim>
-  void MeshAdaptation<dim>::summarise(RunFolder &folder) const
-  {
-    if (scene.grid.follows_points())
-      folder.record("fine cells at the end: " +
-                    number_text(Utilities::MPI::sum(double(scene.grid.fine_cells().n_owned()), communicator)) +
-                    "; they followed the points " + std::to_string(n_refinements) + " times, which took " +
-                    number_text(seconds_of(timer, TimerSection::repartition)) + " s");
-  }
 
   template class MeshAdaptation<2>;
   template class MeshAdaptation<3>;

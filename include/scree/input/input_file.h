@@ -40,7 +40,13 @@ namespace scree
     std::string suggest_subsection(const std::string &path, const std::string &written) const;
 
     /// The paths of all subsections, in the order of their names.
-    std::vector<std::string> subsection_paths() const;
+    std::vector<std::string> subsection_paths() const
+    {
+      std::vector<std::string> paths;
+      for (const Name &name : subsections)
+        paths.push_back(subsection_path(name.path, name.name));
+      return paths;
+    }
 
   private:
     std::vector<Name> entries, subsections;
@@ -88,7 +94,12 @@ namespace scree
     }
 
     /// Whether the file has a subsection of that path.
-    bool has_subsection(const std::string &path) const;
+    bool has_subsection(const std::string &path) const
+    {
+      return std::any_of(statements.begin(), statements.end(), [&](const Statement &statement) {
+        return statement.kind == Kind::subsection && subsection_path(statement.path, statement.name) == path;
+      });
+    }
 
     /// The first entry of a subsection with a value that is not the default of `prm`, and the value; empty: there is
     /// none.

@@ -35,7 +35,13 @@ namespace scree
     }
 
     /// Water volume over pore volume, at most 1; without soil the whole cell, m^3, is pore.
-    double saturation(const double cell_volume) const;
+    double saturation(const double cell_volume) const
+    {
+      const double pores = n_soil_points > 0 ? soil_volume - grain_volume : cell_volume;
+      if (pores <= 0) // soil crushed to its grains: what water there is overflows
+        return water_volume > 0 ? 1. : 0.;
+      return std::min(1., water_volume / pores);
+    }
   };
 
   /// What the cells of this rank hold, by active cell index; other ranks' cells are empty.
@@ -130,7 +136,14 @@ namespace scree
     }
 
     /// The middle of a column, with 0 as its last coordinate, m.
-    dealii::Point<dim> middle(const std::size_t column) const;
+    dealii::Point<dim> middle(const std::size_t column) const
+    {
+      dealii::Point<dim> x;
+      std::size_t rest = column;
+      for (unsigned int a = 0; a + 1 < dim; ++a, rest /= n[a - 1])
+        x[a] = grid.lower_corner()[a] + (rest % n[a] + 0.5) * grid.cell_size();
+      return x;
+    }
 
     /// The columns around a place and their weights, 1 - |distance|/(cell size) along each axis; what would fall to
     /// columns outside the box counts for those at its edge, so that the weights' sum is 1.

@@ -96,9 +96,13 @@ namespace scree
     /// Keeps references.
     /// @param gravity m/s^2
     /// @param bed null: the ground is normal to the last axis
-    SoilMotion(const BackgroundGrid<dim> &grid,
-               const dealii::Tensor<1, dim> &gravity,
-               const DiscreteLevelSet<dim> *bed);
+    SoilMotion(const BackgroundGrid<dim> &grid, const dealii::Tensor<1, dim> &gravity, const DiscreteLevelSet<dim> *bed)
+        : grid(grid)
+        , gravity(gravity)
+        , bed(bed)
+        , columns(grid)
+    {
+    }
 
     /// Looks at the soil; the first look is the start. Collective.
     MotionNumbers look(const std::list<SoilBody<dim>> &bodies, const double time);
@@ -348,10 +352,22 @@ namespace scree
     void require_numbers(const double time) const;
 
     /// The whole names of the columns of the last row.
-    std::vector<std::string> columns() const;
+    std::vector<std::string> columns() const
+    {
+      std::vector<std::string> result;
+      for (const auto &[column, value] : last_row)
+        result.push_back(column);
+      return result;
+    }
 
     /// The numbers of the last row.
-    std::vector<double> values() const;
+    std::vector<double> values() const
+    {
+      std::vector<double> result;
+      for (const auto &[column, value] : last_row)
+        result.push_back(value);
+      return result;
+    }
 
     /// Prints the last row, one quantity a line.
     void print_last_row(std::ostream &out) const;
