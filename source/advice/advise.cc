@@ -360,10 +360,8 @@ namespace scree
 
     std::string rounded(const double value)
     {
-      char text[32];
       // Counts and seconds of some size in full, else three digits.
-      std::snprintf(text, sizeof text, std::abs(value) >= 1e3 && std::abs(value) < 1e6 ? "%.0f" : "%.3g", value);
-      return text;
+      return formatted(std::abs(value) >= 1e3 && std::abs(value) < 1e6 ? "%.0f" : "%.3g", value);
     }
 
     /// 5400 -> "1.5 core-hours"

@@ -205,19 +205,9 @@ namespace scree
       void finish()
       {
         double n_occupied = std::count(occupied.begin(), occupied.end(), 1);
-        for (double *sum : { &soil_points,
-                             &soil_mass,
-                             &soil_volume,
-                             &grain_volume,
-                             &pressure_sum,
-                             &bulk_sum,
-                             &shear_sum,
-                             &water_points,
-                             &water_mass,
-                             &water_volume,
-                             &height_moment,
-                             &n_occupied })
-          *sum = Utilities::MPI::sum(*sum, communicator);
+        const NumbersOf sums{ &soil_points, &soil_mass,    &soil_volume, &grain_volume, &pressure_sum,  &bulk_sum,
+                              &shear_sum,   &water_points, &water_mass,  &water_volume, &height_moment, &n_occupied };
+        sums.sum_over_ranks(communicator);
         scene.n_soil_points  = soil_points;
         scene.n_water_points = water_points;
         scene.n_occupied     = n_occupied;

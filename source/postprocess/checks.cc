@@ -3,8 +3,6 @@
 #include <scree/tensor/invariants.h>
 #include <scree/tensor/vector.h>
 
-#include <cstdio>
-
 namespace scree
 {
   using namespace dealii;
@@ -21,11 +19,7 @@ namespace scree
     {
       std::string text = "(";
       for (unsigned int a = 0; a < dim; ++a)
-        {
-          char number[32];
-          std::snprintf(number, sizeof number, "%.6g", x[a]);
-          text += (a > 0 ? ", " : "") + std::string(number);
-        }
+        text += (a > 0 ? ", " : "") + formatted("%.6g", x[a]);
       return text + ") m";
     }
 

@@ -7,6 +7,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <cstdio>
 #include <numeric>
 
 namespace scree
@@ -27,8 +28,20 @@ namespace scree
     }
   };
 
+  /// Text by a pattern of printf, at most 255 letters.
+  template <typename... Values>
+  std::string formatted(const char *pattern, const Values... values)
+  {
+    char text[256];
+    std::snprintf(text, sizeof text, pattern, values...);
+    return text;
+  }
+
   /// A number with three digits.
-  std::string short_text(const double value);
+  inline std::string short_text(const double value)
+  {
+    return formatted("%.3g", value);
+  }
 
   /// The lines `Checks`: values out of bounds with their bounds and places, then the others.
   std::string verdict(const std::vector<CheckResult> &results);
