@@ -323,10 +323,10 @@ namespace scree
     look_at_mass(soil_mass, sums.moving_mass, totals.lost_mass, totals.entered_mass);
     look_at_mass(water_mass, sums.water_mass, totals.lost_water_mass, totals.entered_water_mass);
 
-    momentum_residual = worse(momentum_residual, (sums.momentum - start_momentum - totals.impulse()).norm());
-    momentum_scale    = std::max({ momentum_scale,
-                                   totals.balance.body_impulse.norm(),
-                                   std::sqrt(2. * mass_scaling * (sums.moving_mass + sums.water_mass) * sums.kinetic) });
+    momentum_residual    = worse(momentum_residual, (sums.momentum - start_momentum - totals.impulse()).norm());
+    const double inertia = mass_scaling * (sums.moving_mass + sums.water_mass); // kg
+    momentum_scale =
+        std::max({ momentum_scale, totals.balance.body_impulse.norm(), std::sqrt(2. * inertia * sums.kinetic) });
 
     const Budget<dim> &balance = totals.balance;
     least_potential            = std::min(least_potential, own_potential);
