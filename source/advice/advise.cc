@@ -100,24 +100,6 @@ namespace scree
   } // namespace
 
 
-  double StepCost::rest() const
-  {
-    double sum = seconds;
-    for (const auto &[part, of_part] : parts)
-      sum -= of_part;
-    return std::max(0., sum);
-  }
-
-
-  double Observation::duration() const
-  {
-    double sum = 0;
-    for (const SpeedInterval &interval : intervals)
-      sum += interval.duration;
-    return sum;
-  }
-
-
   RunCost cost_of_run(const SceneNumbers &scene, const Observation &seen, const Schedule &schedule)
   {
     const TimeStepper clock(schedule.time_step);
@@ -378,10 +360,8 @@ namespace scree
 
     std::string rounded(const double value)
     {
-      char text[32];
       // Counts and seconds of some size in full, else three digits.
-      std::snprintf(text, sizeof text, std::abs(value) >= 1e3 && std::abs(value) < 1e6 ? "%.0f" : "%.3g", value);
-      return text;
+      return formatted(std::abs(value) >= 1e3 && std::abs(value) < 1e6 ? "%.0f" : "%.3g", value);
     }
 
     /// 5400 -> "1.5 core-hours"

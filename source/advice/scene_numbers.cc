@@ -55,9 +55,9 @@ namespace scree
     {
     public:
       Surveyor(const Simulation<dim> &simulation, const Parameters &parameters, const MPI_Comm communicator)
-          : simulation(simulation)
+          : run(simulation.state_of_scene())
           , parameters(parameters)
-          , grid(simulation.background_grid())
+          , grid(run.grid)
           , communicator(communicator)
           , axis(dim - 1) // without gravity nothing depends on it
           , occupied(grid.triangulation().n_active_cells(), 0)
@@ -71,10 +71,10 @@ namespace scree
       {
         read_entries();
         find_height();
-        for (const auto &body : simulation.bodies())
+        for (const auto &body : run.bodies)
           if (!body.is_rigid)
             look_at_soil(body);
-        for (const auto &part : simulation.water_phases())
+        for (const auto &part : run.water)
           look_at_water(part);
         finish();
         return scene;
@@ -115,10 +115,10 @@ namespace scree
 
       void find_height()
       {
-        if (scene.has_soil && simulation.bed() != nullptr)
+        if (scene.has_soil && run.bed)
           {
-            SoilMotion<dim> motion(grid, Tensor<1, dim>(), simulation.bed());
-            scene.height = grid.cell_size() * motion.look(simulation.bodies(), 0.).thickness;
+            SoilMotion<dim> motion(grid, Tensor<1, dim>(), run.bed.get());
+            scene.height = grid.cell_size() * motion.look(run.bodies, 0.).thickness;
             return;
           }
         // Largest coordinate and minus the smallest, for each axis.
@@ -130,10 +130,10 @@ namespace scree
               ends[2 * a + 1] = std::max(ends[2 * a + 1], -point.location[a]);
             }
         };
-        for (const auto &body : simulation.bodies())
+        for (const auto &body : run.bodies)
           for_each_point(body.points, add);
         if (!scene.has_soil)
-          for (const auto &part : simulation.water_phases())
+          for (const auto &part : run.water)
             for_each_point(part.points(), add);
         Utilities::MPI::max(ends, communicator, ends);
         // Outer points stand half a spacing inside the surface.
@@ -205,19 +205,9 @@ namespace scree
       void finish()
       {
         double n_occupied = std::count(occupied.begin(), occupied.end(), 1);
-        for (double *sum : { &soil_points,
-                             &soil_mass,
-                             &soil_volume,
-                             &grain_volume,
-                             &pressure_sum,
-                             &bulk_sum,
-                             &shear_sum,
-                             &water_points,
-                             &water_mass,
-                             &water_volume,
-                             &height_moment,
-                             &n_occupied })
-          *sum = Utilities::MPI::sum(*sum, communicator);
+        const NumbersOf sums{ &soil_points, &soil_mass,    &soil_volume, &grain_volume, &pressure_sum,  &bulk_sum,
+                              &shear_sum,   &water_points, &water_mass,  &water_volume, &height_moment, &n_occupied };
+        sums.sum_over_ranks(communicator);
         scene.n_soil_points  = soil_points;
         scene.n_water_points = water_points;
         scene.n_occupied     = n_occupied;
@@ -247,7 +237,7 @@ namespace scree
         scene.fall              = std::max(0., height_moment / (soil_mass + water_mass) - 0.5 * level);
       }
 
-      const Simulation<dim> &simulation;
+      const Scene<dim> &run;
       const Parameters &parameters;
       const BackgroundGrid<dim> &grid;
       const MPI_Comm communicator;

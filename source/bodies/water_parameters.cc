@@ -127,18 +127,10 @@ namespace scree
         !is_where_soil_is() || n_bodies > 0,
         { "Water", "Region", region },
         "there is no soil, as entry \"Bodies\" is none. Write where the water is, for instance x < 1 && y < 1");
-    const std::string where_region = entry_name("Water", "Region");
-    const std::string where_speed  = entry_name("Water", "Initial velocity");
-    const bool is_expression       = region != WaterParameters().region;
-    if (is_expression && dim == 2)
-      Region<2>(where_region, region);
-    if (is_expression && dim == 3)
-      Region<3>(where_region, region);
-    if (!initial_velocity.empty() && dim == 2)
-      parse_expression<2>(where_speed, initial_velocity, 2);
-    if (!initial_velocity.empty() && dim == 3)
-      parse_expression<3>(where_speed, initial_velocity, 3);
-
+    if (region != WaterParameters().region)
+      check_expression(dim, entry_name("Water", "Region"), region, 1);
+    if (!initial_velocity.empty())
+      check_expression(dim, entry_name("Water", "Initial velocity"), initial_velocity, dim);
     seepage_start.check(
         n_bodies, std::make_pair(std::string("Phreatic surface"), phreatic_surface), reservoir_level, initial_pressure);
     if (has_levels())
@@ -197,10 +189,8 @@ namespace scree
                       ", but entry \"Gravity\" = " + number_text(gravity) + ". Change it, or write a \"Region\".");
     for (const auto &[name, text] :
          { std::make_pair("Phreatic surface", phreatic_surface), std::make_pair("Reservoir level", reservoir_level) })
-      if (!text.empty() && dim == 2)
-        parse_expression<2>(entry_name("Water", name), text, 1, false, "8 - 0.2*x");
-      else if (!text.empty())
-        parse_expression<3>(entry_name("Water", name), text, 1, false, "8 - 0.2*x");
+      if (!text.empty())
+        check_expression(dim, entry_name("Water", name), text, 1, false, "8 - 0.2*x");
   }
 
 

@@ -61,7 +61,7 @@ namespace scree
 
 
     /// Subsection Base motion: an earthquake.
-    class BaseMotionEntries : public BodyForceEntries
+    class BaseMotionEntries : public BodyForceText<BaseMotion>
     {
     public:
       void add_parameters(ParameterHandler &prm) override
@@ -70,28 +70,13 @@ namespace scree
         add_file_entry(
             prm,
             "Acceleration record",
-            record,
+            text,
             "File of the acceleration of the box with all its walls; empty: at rest. Each line has the time (s) "
             "and one component per axis (m/s^2), separated by commas. Values are linear between lines and 0 outside "
             "the "
             "record. Results are relative to the box.");
         prm.leave_subsection();
       }
-      bool is_set() const override
-      {
-        return !record.empty();
-      }
-      std::unique_ptr<BodyForce<2>> make_2d() const override
-      {
-        return std::make_unique<BaseMotion<2>>(record);
-      }
-      std::unique_ptr<BodyForce<3>> make_3d() const override
-      {
-        return std::make_unique<BaseMotion<3>>(record);
-      }
-
-    private:
-      std::string record;
     };
 
     const RegisterBodyForce<BaseMotionEntries> registered_base_motion("Base motion");

@@ -44,7 +44,7 @@ namespace scree
     };
 
 
-    class ExpressionForceEntries : public BodyForceEntries
+    class ExpressionForceEntries : public BodyForceText<ExpressionForce>
     {
     public:
       void add_parameters(ParameterHandler &prm) override
@@ -55,21 +55,6 @@ namespace scree
             "m/s^2; acceleration in addition to gravity, for verification. One expression of x, y (z) and t "
             "per axis, separated by semicolons; empty: none.");
       }
-      bool is_set() const override
-      {
-        return !text.empty();
-      }
-      std::unique_ptr<BodyForce<2>> make_2d() const override
-      {
-        return std::make_unique<ExpressionForce<2>>(text);
-      }
-      std::unique_ptr<BodyForce<3>> make_3d() const override
-      {
-        return std::make_unique<ExpressionForce<3>>(text);
-      }
-
-    private:
-      std::string text;
     };
 
     const RegisterBodyForce<ExpressionForceEntries> registered_expression("Body force");

@@ -24,16 +24,14 @@ namespace scree
 
     void check_inflow(const Parameters &parameters, const InflowParameters &inflow)
     {
-      const BodyParameters *body = parameters.find_body(inflow.body);
-      std::string names;
-      for (const BodyParameters &one : parameters.bodies)
-        names += (names.empty() ? "" : ", ") + one.name;
+      const BodyParameters *body     = parameters.find_body(inflow.body);
+      std::vector<std::string> names = names_of(parameters.bodies);
       if (parameters.has_water)
-        names += (names.empty() ? "" : ", ") + std::string("Water");
+        names.push_back("Water");
       require_entry(body != nullptr || (inflow.is_water() && parameters.has_water),
                     { inflow.subsection, "Body", inflow.body },
                     inflow.is_water() ? "there is no subsection Water. Add one, or write the name of a body."
-                                      : "write what enters: " + names + ".");
+                                      : "write what enters: " + boost::algorithm::join(names, ", ") + ".");
       require_entry(body == nullptr || !body->is_rigid(),
                     { inflow.subsection, "Body", inflow.body },
                     "a body of \"Material = rigid\" does not move. Write another one.");

@@ -384,30 +384,6 @@ namespace scree
   }
 
 
-  const BodyParameters *Parameters::find_body(const std::string &name) const
-  {
-    const auto body =
-        std::find_if(bodies.begin(), bodies.end(), [&](const BodyParameters &one) { return one.name == name; });
-    return body == bodies.end() ? nullptr : &*body;
-  }
-
-
-  unsigned int Parameters::points_per_cell(const InflowParameters &inflow) const
-  {
-    const BodyParameters *body = find_body(inflow.body);
-    return body == nullptr ? water.points_per_cell : body->seeding.points_per_cell;
-  }
-
-
-  ContactGroups Parameters::contact_groups() const
-  {
-    std::vector<ContactBody> of_contacts;
-    for (const BodyParameters &body : bodies)
-      of_contacts.push_back({ body.name, body.is_rigid() });
-    return scree::contact_groups(contacts, of_contacts);
-  }
-
-
   void Parameters::take_box_from_raster()
   {
     if (bed.raster().empty() || dimension != 3 || file.sets("Mesh", "Lower corner") ||
@@ -491,24 +467,6 @@ namespace scree
   }
 
 
-  std::vector<SoilRegion> Parameters::soil_regions() const
-  {
-    std::vector<SoilRegion> regions;
-    for (const auto &body : bodies)
-      regions.push_back(
-          { body.name, body.seeding.expression(), body.initial_porosity(), body.bulk_density(), body.seeding.map });
-    return regions;
-  }
-
-
-  unsigned int Parameters::n_rigid_surfaces() const
-  {
-    return bed.is_set() + std::count_if(obstacles.begin(), obstacles.end(), [](const ObstacleParameters &obstacle) {
-             return obstacle.surface.is_set();
-           });
-  }
-
-
   bool Parameters::damps_skeleton() const
   {
     const auto walls = boundaries.walls(dimension);
@@ -519,15 +477,6 @@ namespace scree
                 obstacles.end(),
                 [](const ObstacleParameters &obstacle) { return obstacle.surface.friction_coefficient() > 0.; }) ||
             std::any_of(walls.begin(), walls.end(), [](const Wall &wall) { return wall.type == WallType::friction; }));
-  }
-
-
-  double Parameters::wave_speed() const
-  {
-    double fastest = 0;
-    for (const auto &body : bodies)
-      fastest = std::max(fastest, body.wave_speed());
-    return fastest;
   }
 
 
@@ -555,14 +504,6 @@ namespace scree
       return text.empty() ? "" : text + '?';
     }
   } // namespace
-
-
-  void Parameters::print_sections(const std::string &path, std::ostream &out)
-  {
-    for (const std::string &one : DeclaredNames(handler).subsection_paths())
-      if (path.empty() || (one + '/').rfind(path + '/', 0) == 0)
-        out << one << '\n';
-  }
 
 
   void Parameters::print_subsection(const std::string &path, std::ostream &out)

@@ -45,7 +45,7 @@ namespace scree
 
     void require_bodies(const ContactParameters &contact, const bool possible, const std::string &remedy)
     {
-      require_entry(possible, contact.subsection, "Bodies", contact.bodies, remedy);
+      require_entry(possible, { contact.subsection, "Bodies", contact.bodies }, remedy);
     }
 
     Numbers bodies_of(const ContactParameters &contact, const std::vector<ContactBody> &bodies)
@@ -57,13 +57,10 @@ namespace scree
         {
           const auto body =
               std::find_if(bodies.begin(), bodies.end(), [&](const ContactBody &one) { return one.name == names[i]; });
-          std::string list;
-          for (const ContactBody &one : bodies)
-            list += (list.empty() ? "" : ", ") + one.name;
           require_bodies(contact,
                          body != bodies.end(),
                          "there is no body " + quoted(names[i]) + ". Entry \"Bodies\" at the top lists " +
-                             (list.empty() ? "none" : list) + '.');
+                             (bodies.empty() ? "none" : boost::algorithm::join(names_of(bodies), ", ")) + '.');
           number[i] = body - bodies.begin();
         }
       require_bodies(contact,
@@ -118,9 +115,7 @@ namespace scree
             return pair;
         }
       require_entry(false,
-                    last->subsection,
-                    "Friction angle",
-                    last->friction_angle,
+                    { last->subsection, "Friction angle", last->friction_angle },
                     "of two groups of bodies, each of which sticks together, one must tell the angle: the same for all "
                     "bodies of the other. Write such angles, or let more bodies slide.");
       return {};
@@ -134,9 +129,7 @@ namespace scree
     for (const ContactParameters &contact : contacts)
       {
         require_entry(contact.is_set() || contact.friction_angle == 0.,
-                      contact.subsection,
-                      "Friction angle",
-                      contact.friction_angle,
+                      { contact.subsection, "Friction angle", contact.friction_angle },
                       "the contact has no bodies. Write their names in \"Bodies\".");
         if (!contact.is_set())
           continue;

@@ -36,15 +36,6 @@ namespace scree
   }
 
 
-  ElementDriver::ElementDriver(const ElementParameters &parameters)
-      : parameters(parameters)
-      , path(parameters.path())
-      , strain_step(parameters.final_strain / parameters.n_steps)
-      , material(make_material<3>(parameters.material))
-  {
-  }
-
-
   ElementDriver::State ElementDriver::start() const
   {
     State state;
@@ -143,18 +134,6 @@ namespace scree
           stretch = find_stretch(states.back(), stretch);
         states.push_back(advance(states.back(), stretch, accepted));
       }
-  }
-
-
-  const std::vector<ElementDriver::State> &ElementDriver::history() const
-  {
-    return states;
-  }
-
-
-  const UpdateReport &ElementDriver::report() const
-  {
-    return accepted;
   }
 
 

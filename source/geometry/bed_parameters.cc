@@ -78,23 +78,6 @@ namespace scree
   }
 
 
-  std::pair<std::string, std::string> BedParameters::geometry() const
-  {
-    std::pair<std::string, std::string> last;
-    for (const auto &[entry, shape] : rigid_shapes())
-      if (const auto value = shapes.find(entry); value != shapes.end() && !value->second.empty())
-        last = *value;
-    return last;
-  }
-
-
-  std::string BedParameters::raster() const
-  {
-    const auto value = shapes.find("Raster");
-    return value == shapes.end() ? "" : value->second;
-  }
-
-
   namespace
   {
     template <int dim>
@@ -241,13 +224,6 @@ namespace scree
   } // namespace
 
 
-  Profile::Profile(std::vector<Point<2>> points)
-      : points(std::move(points))
-  {
-    Assert(this->points.size() >= 2, ExcInternalError());
-  }
-
-
   unsigned int Profile::segment_at(const double x) const
   {
     const auto behind =
@@ -328,12 +304,6 @@ namespace scree
           make_profile,
           nullptr });
   } // namespace
-
-
-  HeightSurface::HeightSurface(Raster raster)
-      : raster(std::move(raster))
-  {
-  }
 
 
   double HeightSurface::height(const double x, const double y) const

@@ -216,23 +216,20 @@ namespace scree
   }
 
 
-  std::string prj_text(const std::string &text)
-  {
-    if (text.find('[') != std::string::npos)
-      return text;
-    const QuietGdal quiet;
-    const auto system     = known_system(text);
-    char *result          = nullptr;
-    const char *options[] = { "FORMAT=WKT1_ESRI", nullptr };
-    const bool is_written = system && system->exportToWkt(&result, options) == OGRERR_NONE;
-    const std::string wkt = is_written ? result : "";
-    CPLFree(result);
-    return wkt;
-  }
-
-
   namespace
   {
+    /// The text of a .prj file; empty if GDAL cannot write the system so.
+    std::string esri_text(const OGRSpatialReference &system)
+    {
+      char *text            = nullptr;
+      const char *options[] = { "FORMAT=WKT1_ESRI", nullptr };
+      const bool is_written = system.exportToWkt(&text, options) == OGRERR_NONE;
+      const std::string wkt = is_written ? text : "";
+      CPLFree(text);
+      return wkt;
+    }
+
+
     /// The code of the EPSG if the system has it, else the text of a .prj file; without its vertical part.
     std::string text_of_system(const OGRSpatialReference &with_heights)
     {
@@ -241,14 +238,19 @@ namespace scree
       const char *authority = system.GetAuthorityName(nullptr), *code = system.GetAuthorityCode(nullptr);
       if (authority != nullptr && code != nullptr && std::string(authority) == "EPSG")
         return std::string("EPSG:") + code;
-      char *text            = nullptr;
-      const char *options[] = { "FORMAT=WKT1_ESRI", nullptr };
-      const bool is_known   = system.exportToWkt(&text, options) == OGRERR_NONE;
-      const std::string wkt = is_known ? text : "";
-      CPLFree(text);
-      return wkt;
+      return esri_text(system);
     }
   } // namespace
+
+
+  std::string prj_text(const std::string &text)
+  {
+    if (text.find('[') != std::string::npos)
+      return text;
+    const QuietGdal quiet;
+    const auto system = known_system(text);
+    return system ? esri_text(*system) : "";
+  }
 
 
   std::string ascii_grid(const Raster &raster)
@@ -625,12 +627,6 @@ namespace scree
       return checked_polygon(std::move(corners), name);
     }
   } // namespace
-
-
-  Outline::Outline(std::vector<std::vector<Polygon>> areas)
-      : areas(std::move(areas))
-  {
-  }
 
 
   bool Outline::contains(const Point<2> &x) const

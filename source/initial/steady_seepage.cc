@@ -33,16 +33,13 @@ namespace scree
     std::vector<double> heads_at_faces(const SeepageStart &start, const unsigned int dim)
     {
       const std::vector<std::string> names = FaceEntries::names(dim);
-      std::string list;
-      for (const std::string &name : names)
-        list += (list.empty() ? "" : ", ") + name;
       std::vector<double> heads(names.size(), no_head);
       for (const auto &[name, head] : start.heads())
         {
           const auto face = std::find(names.begin(), names.end(), name);
           require_entry(face != names.end() && std::isnan(heads[face - names.begin()]),
                         { "Water", "Heads at walls", start.wall_heads },
-                        "write each wall once. The walls are " + list + '.');
+                        "write each wall once. The walls are " + boost::algorithm::join(names, ", ") + '.');
           heads[face - names.begin()] = head;
         }
       return heads;

@@ -119,13 +119,21 @@ namespace scree
     return function;
   }
 
-  template class Expression<1>;
-  template class Expression<2>;
-  template class Expression<3>;
-  template std::unique_ptr<Expression<1>>
-  parse_expression(const std::string &, const std::string &, const unsigned int, const bool, const std::string &);
-  template std::unique_ptr<Expression<2>>
-  parse_expression(const std::string &, const std::string &, const unsigned int, const bool, const std::string &);
-  template std::unique_ptr<Expression<3>>
-  parse_expression(const std::string &, const std::string &, const unsigned int, const bool, const std::string &);
+  template decltype(parse_expression<1>) parse_expression<1>;
+  template decltype(parse_expression<2>) parse_expression<2>;
+  template decltype(parse_expression<3>) parse_expression<3>;
+
+
+  void check_expression(const unsigned int dim,
+                        const std::string &where,
+                        const std::string &text,
+                        const unsigned int n_components,
+                        const bool with_time,
+                        const std::string &example)
+  {
+    if (dim == 2)
+      parse_expression<2>(where, text, n_components, with_time, example);
+    else
+      parse_expression<3>(where, text, n_components, with_time, example);
+  }
 } // namespace scree

@@ -57,10 +57,10 @@ namespace scree
 
   std::string number_text(const std::vector<double> &values)
   {
-    std::string text;
+    std::vector<std::string> words;
     for (const double value : values)
-      text += (text.empty() ? "" : ", ") + number_text(value);
-    return text;
+      words.push_back(number_text(value));
+    return boost::algorithm::join(words, ", ");
   }
 
 

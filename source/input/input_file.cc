@@ -216,24 +216,12 @@ namespace scree
   }
 
 
-  std::vector<std::string> DeclaredNames::subsection_paths() const
-  {
-    std::vector<std::string> paths;
-    for (const Name &name : subsections)
-      paths.push_back(subsection_path(name.path, name.name));
-    return paths;
-  }
-
-
   std::vector<std::string> nearest(const std::vector<std::string> &names, const std::string &written)
   {
     std::vector<Name> all;
     for (const std::string &name : names)
       all.push_back({ "", name, "", "" });
-    std::vector<std::string> result;
-    for (const Name &name : closest(all, "", written))
-      result.push_back(name.name);
-    return result;
+    return names_of(closest(all, "", written));
   }
 
 
@@ -455,14 +443,6 @@ namespace scree
           statement.value != prm.get(path, statement.name))
         return { statement.name, statement.value };
     return {};
-  }
-
-
-  bool InputFile::has_subsection(const std::string &path) const
-  {
-    return std::any_of(statements.begin(), statements.end(), [&](const Statement &statement) {
-      return statement.kind == Kind::subsection && subsection_path(statement.path, statement.name) == path;
-    });
   }
 
 

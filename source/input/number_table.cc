@@ -49,11 +49,9 @@ namespace scree
                                                      const std::vector<std::string> &columns,
                                                      const FirstColumn first_column)
   {
-    const std::string name = where + " = " + file + ": ";
-    std::string wanted;
-    for (const std::string &column : columns)
-      wanted += (wanted.empty() ? "" : ", ") + column;
-    std::ifstream in = open_file(file, name);
+    const std::string name   = where + " = " + file + ": ";
+    const std::string wanted = boost::algorithm::join(columns, ", ");
+    std::ifstream in         = open_file(file, name);
 
     std::vector<std::vector<double>> rows;
     bool may_name_columns = true;

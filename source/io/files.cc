@@ -337,13 +337,6 @@ namespace scree
   }
 
 
-  BackgroundWriter::BackgroundWriter(const MPI_Comm communicator)
-      : communicator(communicator)
-      , n_ranks(Utilities::MPI::n_mpi_processes(communicator))
-  {
-  }
-
-
   BackgroundWriter::~BackgroundWriter()
   {
     if (running.valid())

@@ -2,7 +2,6 @@
 #include <scree/io/progress.h>
 #include <scree/step/step_report.h>
 
-#include <cstdio>
 #include <ctime>
 
 namespace scree
@@ -30,14 +29,6 @@ namespace scree
       return lines + line;
     }
   } // namespace
-
-
-  std::string short_text(const double value)
-  {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-  }
 
 
   std::string verdict(const std::vector<CheckResult> &results)
@@ -75,13 +66,6 @@ namespace scree
       return std::to_string(s) + " s";
     }
 
-    template <typename... Values>
-    std::string format(const char *pattern, const Values... values)
-    {
-      char line[256];
-      std::snprintf(line, sizeof line, pattern, values...);
-      return line;
-    }
   } // namespace
 
 
@@ -99,30 +83,30 @@ namespace scree
   {
     const int width = std::max<int>(16, place_column.size() + 2);
     if (!has_heading)
-      folder.log(format("\n%12s %7s %9s %10s %*s %14s %13s",
-                        "time (s)",
-                        "done",
-                        "step",
-                        "dt (s)",
-                        width,
-                        place_column.c_str(),
-                        "kinetic (J)",
-                        "remaining"));
+      folder.log(formatted("\n%12s %7s %9s %10s %*s %14s %13s",
+                           "time (s)",
+                           "done",
+                           "step",
+                           "dt (s)",
+                           width,
+                           place_column.c_str(),
+                           "kinetic (J)",
+                           "remaining"));
     has_heading          = true;
     const double elapsed = clock.wall_time();
     last_line            = elapsed;
     const double done    = std::min(1., (time - start_time) / (end_time - start_time));
     // Five digits of the end time.
     const int decimals = 4 - static_cast<int>(std::floor(std::log10(std::max(end_time, 1e-300))));
-    folder.log((decimals <= 8 ? format("%12.*f", std::max(0, decimals), time) : format("%12.4e", time)) +
-               format(" %5.0f %% %9llu %10.2e %*.4f %14.4g %13s",
-                      100 * done,
-                      step,
-                      time_step,
-                      width,
-                      place,
-                      kinetic_energy,
-                      (done > 0 ? duration(elapsed / done * (1 - done)) : std::string()).c_str()));
+    folder.log((decimals <= 8 ? formatted("%12.*f", std::max(0, decimals), time) : formatted("%12.4e", time)) +
+               formatted(" %5.0f %% %9llu %10.2e %*.4f %14.4g %13s",
+                         100 * done,
+                         step,
+                         time_step,
+                         width,
+                         place,
+                         kinetic_energy,
+                         (done > 0 ? duration(elapsed / done * (1 - done)) : std::string()).c_str()));
   }
 
 
@@ -134,7 +118,7 @@ namespace scree
     std::string text;
     for (const auto &[limit, name] : names)
       if (const double share = percent(limit); share > 0)
-        text += (text.empty() ? "" : ", ") + format(share < 1 ? "%s (below 1 %%" : "%s (%.0f %%", name, share) +
+        text += (text.empty() ? "" : ", ") + formatted(share < 1 ? "%s (below 1 %%" : "%s (%.0f %%", name, share) +
                 (text.empty() ? " of steps)" : ")");
     return text;
   }
@@ -145,12 +129,12 @@ namespace scree
   {
     const double total         = clock.wall_time();
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    folder.log(format("\n%-11s wall time %s, %llu steps",
-                      how.c_str(),
-                      total < 60 ? format("%.1f s", total).c_str() : duration(total).c_str(),
-                      n_steps()) +
+    folder.log(formatted("\n%-11s wall time %s, %llu steps",
+                         how.c_str(),
+                         total < 60 ? formatted("%.1f s", total).c_str() : duration(total).c_str(),
+                         n_steps()) +
                (point_updates > 0
-                    ? format(", %.0f ns per point and step and core", 1e9 * n_ranks * total / point_updates)
+                    ? formatted(", %.0f ns per point and step and core", 1e9 * n_ranks * total / point_updates)
                     : ""));
     if (n_steps() == 0)
       return;
@@ -158,12 +142,13 @@ namespace scree
     constexpr double most = 50.; // % of the steps
     if (percent(StepLimit::entry) > most && others > 0.)
       folder.log(
-          format("Warning     'Maximum time step' bounds %.0f %% of the steps: without it the run would have "
-                 "taken %.3g times fewer.\n            Write a larger one, or auto, unless results depend on it.",
-                 percent(StepLimit::entry),
-                 n_steps() / others));
+          formatted("Warning     'Maximum time step' bounds %.0f %% of the steps: without it the run would have "
+                    "taken %.3g times fewer.\n            Write a larger one, or auto, unless results depend on it.",
+                    percent(StepLimit::entry),
+                    n_steps() / others));
     if (const double motion = time - start_time; motion > 0)
-      folder.record(format("Per simulated second: %.4g steps, %.3g s wall time", n_steps() / motion, total / motion));
+      folder.record(
+          formatted("Per simulated second: %.4g steps, %.3g s wall time", n_steps() / motion, total / motion));
   }
 
 
@@ -181,9 +166,9 @@ namespace scree
     double accounted              = 0;
     const std::string last_column = "ns per " + point + " and step";
     const int width               = std::max<int>(22, last_column.size());
-    folder.record(format("%-34s %10s %8s %*s", "part", "seconds", "share", width, last_column.c_str()));
+    folder.record(formatted("%-34s %10s %8s %*s", "part", "seconds", "share", width, last_column.c_str()));
     const auto line = [&](const std::string &name, const double s) {
-      folder.record(format("%-34s %10.2f %6.1f %% %*.1f", name.c_str(), s, 100 * s / total, width, s * to_ns));
+      folder.record(formatted("%-34s %10.2f %6.1f %% %*.1f", name.c_str(), s, 100 * s / total, width, s * to_ns));
     };
     for (const TimerSection part : step_parts)
       if (const double s = seconds_of(parts, part); s > 0)
@@ -193,10 +178,10 @@ namespace scree
         }
     line("everything else", total - accounted);
     line("total", total);
-    folder.record(format("(ns are of one core: wall time x %u rank(s) / %.4g point updates; processor time %.4g s)",
-                         n_ranks,
-                         point_updates,
-                         core_seconds));
+    folder.record(formatted("(ns are of one core: wall time x %u rank(s) / %.4g point updates; processor time %.4g s)",
+                            n_ranks,
+                            point_updates,
+                            core_seconds));
   }
 
 
@@ -209,12 +194,12 @@ namespace scree
       return;
     const double total  = clock.wall_time();
     const auto of_ranks = Utilities::MPI::min_max_avg(waiting, communicator);
-    folder.record(format("waiting: %.1f %% of the ranks' time (%.1f %% to %.1f %%)",
-                         100 * of_ranks.avg / total,
-                         100 * of_ranks.min / total,
-                         100 * of_ranks.max / total));
-    folder.record(format("imbalance: %.3f (slowest rank over mean, without waiting); repartitioned %u times",
-                         imbalance,
-                         n_repartitions));
+    folder.record(formatted("waiting: %.1f %% of the ranks' time (%.1f %% to %.1f %%)",
+                            100 * of_ranks.avg / total,
+                            100 * of_ranks.min / total,
+                            100 * of_ranks.max / total));
+    folder.record(formatted("imbalance: %.3f (slowest rank over mean, without waiting); repartitioned %u times",
+                            imbalance,
+                            n_repartitions));
   }
 } // namespace scree

@@ -42,17 +42,6 @@ namespace scree
   } // namespace
 
 
-  RunFolder::RunFolder(const std::string &path, const bool to_screen, const MPI_Comm communicator)
-      : path(path)
-      , to_screen(to_screen)
-      , writer(Utilities::MPI::this_mpi_process(communicator) == 0)
-      , communicator(communicator)
-  {
-    const std::string fault = Utilities::MPI::broadcast(communicator, writer ? open() : std::string());
-    require_entry(fault.empty(), { "", "Output directory", path }, fault);
-  }
-
-
   void RunFolder::remove_old_results()
   {
     if (writer)
@@ -159,7 +148,6 @@ namespace scree
   std::string csv_head(const std::vector<std::string> &columns)
   {
     std::vector<std::string> names;
-    std::string line;
     for (const std::string &column : columns)
       {
         const std::string wanted = csv_name(column);
@@ -167,9 +155,8 @@ namespace scree
         for (unsigned int n = 2; std::find(names.begin(), names.end(), name) != names.end(); ++n)
           name = wanted + '_' + std::to_string(n);
         names.push_back(name);
-        line += (line.empty() ? "" : ",") + name;
       }
-    return line + '\n';
+    return boost::algorithm::join(names, ",") + '\n';
   }
 
 
@@ -190,14 +177,6 @@ namespace scree
   }
 
 
-  TableFile::TableFile(RunFolder &folder, const std::string &name)
-      : folder(folder)
-      , files{ { name, table_head, table_row, RowFile(folder.file(name)) },
-               { name + ".csv", csv_head, csv_row, RowFile(folder.file(name + ".csv")) } }
-  {
-  }
-
-
   void TableFile::append(const std::vector<std::string> &columns, const std::vector<std::vector<double>> &rows)
   {
     if (!folder.is_writer())
@@ -209,13 +188,6 @@ namespace scree
           text += file.row(row);
         folder.try_to_write(file.name, [&] { file.rows.append(text); });
       }
-  }
-
-
-  void TableFile::sync()
-  {
-    for (File &file : files)
-      folder.try_to_write(file.name, [&] { file.rows.sync(); });
   }
 
 

@@ -51,14 +51,6 @@ namespace scree
   }
 
 
-  StopRequests::StopRequests(const std::string &terminate_file, const double wall_time_limit)
-      : terminate_file(terminate_file)
-      , wall_time_limit(wall_time_limit)
-      , start(std::chrono::steady_clock::now())
-  {
-  }
-
-
   void StopRequests::listen()
   {
     for (const ListenedSignal &signal : listened)

@@ -55,14 +55,11 @@ namespace scree
 
   void MaterialParameters::add_parameters(ParameterHandler &prm)
   {
-    std::string names;
-    for (const RegisteredLaw &one : registered_laws())
-      names += (names.empty() ? "" : "|") + one.name;
     prm.add_parameter("Material",
                       law,
                       "Constitutive law; its entries are in the subsection of its name. rigid: the body does not move "
                       "and has no stress; water flows through its pores.",
-                      Patterns::Selection(names));
+                      Patterns::Selection(boost::algorithm::join(names_of(registered_laws()), "|")));
     for (const RegisteredLaw &one : registered_laws())
       if (!one.subsection.empty())
         {

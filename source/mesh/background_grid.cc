@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/mesh/background_grid.h>
+#include <scree/tensor/vector.h>
 
 #include <deal.II/grid/grid_generator.h>
 
@@ -10,18 +11,9 @@ namespace scree
   namespace
   {
     template <int dim>
-    Point<dim> point_from_list(const std::vector<double> &list)
-    {
-      Point<dim> point;
-      std::copy_n(list.begin(), dim, &point[0]);
-      return point;
-    }
-
-
-    template <int dim>
     CellsOfBox<dim> cells_of_box(const GridParameters &parameters)
     {
-      CellsOfBox<dim> box{ point_from_list<dim>(parameters.lower_corner), parameters.cell_size, {} };
+      CellsOfBox<dim> box{ Point<dim>(vector_of<dim>(parameters.lower_corner.data())), parameters.cell_size, {} };
       for (unsigned int a = 0; a < dim; ++a)
         box.n[a] = static_cast<int>(parameters.n_cells_along(a));
       return box;
@@ -138,21 +130,14 @@ namespace scree
   }
 
 
-  bool GridParameters::is_adaptive() const
-  {
-    constexpr double few = 2e4;
-    return n_cells() > few;
-  }
-
-
   template <int dim>
   BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters,
                                       const unsigned int n_levels,
                                       const bool follows,
                                       const MPI_Comm communicator)
       : width(parameters.cell_size)
-      , lower(point_from_list<dim>(parameters.lower_corner))
-      , upper(point_from_list<dim>(parameters.upper_corner))
+      , lower(vector_of<dim>(parameters.lower_corner.data()))
+      , upper(vector_of<dim>(parameters.upper_corner.data()))
       , box(cells_of_box<dim>(parameters))
       , n_levels(n_levels)
       , follows(follows)

@@ -189,8 +189,6 @@ namespace scree
 
   template struct CutCell<2>;
   template struct CutCell<3>;
-  template struct CutFacet<2>;
-  template struct CutFacet<3>;
   template class CutCells<2>;
   template class CutCells<3>;
 } // namespace scree

@@ -155,15 +155,6 @@ namespace scree
 
 
   template <int dim>
-  FineCells<dim>::FineCells(const parallel::distributed::Triangulation<dim> &mesh, const CellsOfBox<dim> &box)
-      : triangulation(mesh)
-      , cells_of_box(box)
-      , rank(Utilities::MPI::this_mpi_process(communicator_of(mesh)))
-  {
-  }
-
-
-  template <int dim>
   void FineCells<dim>::list_cells()
   {
     const CellsOfBox<dim> &box = cells_of_box;

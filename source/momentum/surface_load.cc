@@ -105,30 +105,21 @@ namespace scree
       {
         for (const auto &[name, corner] : corners)
           require_entry(corner == SurfaceLoadParameters().lower_corner,
-                        subsection,
-                        name,
-                        number_text(corner),
+                        { subsection, name, number_text(corner) },
                         "this entry has no effect. Remove it, or write a \"Traction\", in Pa.");
         return;
       }
-    if (dim == 2)
-      parse_expression<2>(entry_name(subsection, "Traction"), traction, 2, true);
-    else
-      parse_expression<3>(entry_name(subsection, "Traction"), traction, 3, true);
+    check_expression(dim, entry_name(subsection, "Traction"), traction, dim, true);
 
     for (const auto &[name, corner] : corners)
       {
         require_entry(corner.size() == dim,
-                      subsection,
-                      name,
-                      number_text(corner),
+                      { subsection, name, number_text(corner) },
                       "entry \"Dimension\" is " + std::to_string(dim) + ". Write " + std::to_string(dim) +
                           " coordinates in m, separated by commas.");
         for (unsigned int a = 0; a < dim; ++a)
           require_entry(corner[a] >= grid.lower_corner[a] && corner[a] <= grid.upper_corner[a],
-                        subsection,
-                        name,
-                        number_text(corner),
+                        { subsection, name, number_text(corner) },
                         "it lies outside the box of subsection Mesh, from " + number_text(grid.lower_corner) + " to " +
                             number_text(grid.upper_corner) + ". Move it, or a corner of the box.");
       }
@@ -137,16 +128,12 @@ namespace scree
       {
         n_equal += lower_corner[a] == upper_corner[a];
         require_entry(lower_corner[a] <= upper_corner[a],
-                      subsection,
-                      "Upper corner",
-                      number_text(upper_corner),
+                      { subsection, "Upper corner", number_text(upper_corner) },
                       "it lies below \"Lower corner\" = " + number_text(lower_corner) + " along " +
                           std::string(1, "xyz"[a]) + ". Exchange the two coordinates.");
       }
     require_entry(n_equal == 1,
-                  subsection,
-                  "Upper corner",
-                  number_text(upper_corner),
+                  { subsection, "Upper corner", number_text(upper_corner) },
                   "it shares " + std::to_string(n_equal) + " coordinates with \"Lower corner\" = " +
                       number_text(lower_corner) + ". Those of a flat patch across an axis share exactly one.");
   }

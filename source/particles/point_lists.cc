@@ -53,8 +53,6 @@ namespace scree
     return is_inside(cells[cell].template place_of<double>(x)) ? cell : none;
   }
 
-  template struct TableCell<2>;
-  template struct TableCell<3>;
   template class CellTable<2>;
   template class CellTable<3>;
 

@@ -18,52 +18,6 @@ namespace scree
   }
 
 
-  template <int dim>
-  std::vector<PointRecord<dim>> PointExchange<dim>::exchange()
-  {
-    // Points go to ghost cells only, so that the ghost layer gives the partners. deal.II's some_to_some() asks first,
-    // which takes 60 microseconds more a step on two ranks.
-    const auto &neighbours      = dynamic_cast<const parallel::TriangulationBase<dim> &>(mesh).ghost_owners();
-    const MPI_Comm communicator = communicator_of(mesh);
-    constexpr int tag           = 1;
-    std::vector<Record> immigrants;
-    std::vector<std::vector<char>> messages;
-    std::vector<MPI_Request> requests(neighbours.size());
-    for (const unsigned int rank : neighbours)
-      {
-        messages.push_back(Utilities::pack(emigrants[rank], /*allow_compression=*/false));
-        const int error = MPI_Isend(messages.back().data(),
-                                    messages.back().size(),
-                                    MPI_CHAR,
-                                    rank,
-                                    tag,
-                                    communicator,
-                                    &requests[messages.size() - 1]);
-        AssertThrowMPI(error);
-      }
-    for (const unsigned int rank : neighbours)
-      {
-        MPI_Status status;
-        int size, error = MPI_Probe(rank, tag, communicator, &status);
-        AssertThrowMPI(error);
-        error = MPI_Get_count(&status, MPI_CHAR, &size);
-        AssertThrowMPI(error);
-        std::vector<char> message(size);
-        error = MPI_Recv(message.data(), size, MPI_CHAR, rank, tag, communicator, MPI_STATUS_IGNORE);
-        AssertThrowMPI(error);
-        for (Record &record : Utilities::unpack<std::vector<Record>>(message, /*allow_compression=*/false))
-          immigrants.push_back(std::move(record));
-      }
-    const int error = MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
-    AssertThrowMPI(error);
-    emigrants.clear();
-    return immigrants;
-  }
-
-  template class PointExchange<2>;
-  template class PointExchange<3>;
-
-
   /// Cell by cell.
   template <int dim>
   struct PointSet<dim>::Lifted
@@ -85,7 +39,6 @@ namespace scree
       , lists(particle_handler, table)
       , refinement_signal(triangulation.signals.any_change.connect([this] { table.clear(); }))
       , repartition_signal(triangulation.signals.post_distributed_repartition.connect([this] { table.clear(); }))
-      , emigrants(triangulation)
   {
     particle_handler.signals.particle_lost.connect([this](const auto &point, const auto &) {
       const auto properties = point->get_properties();
@@ -116,7 +69,7 @@ namespace scree
       return Disorder::far;
     if (n_moved > most_moved * n_points())
       return Disorder::scattered;
-    return emigrants.is_empty() ? Disorder::none : Disorder::beside_a_border;
+    return emigrants.empty() ? Disorder::none : Disorder::beside_a_border;
   }
 
 
@@ -186,10 +139,53 @@ namespace scree
 
 
   template <int dim>
+  std::vector<PointRecord<dim>> PointSet<dim>::exchange()
+  {
+    // Points go to ghost cells only, so that the ghost layer gives the partners. deal.II's some_to_some() asks first,
+    // which takes 60 microseconds more a step on two ranks.
+    const auto &neighbours      = dynamic_cast<const parallel::TriangulationBase<dim> &>(mesh).ghost_owners();
+    const MPI_Comm communicator = communicator_of(mesh);
+    constexpr int tag           = 1;
+    std::vector<Record> immigrants;
+    std::vector<std::vector<char>> messages;
+    std::vector<MPI_Request> requests(neighbours.size());
+    for (const unsigned int rank : neighbours)
+      {
+        messages.push_back(Utilities::pack(emigrants[rank], /*allow_compression=*/false));
+        const int error = MPI_Isend(messages.back().data(),
+                                    messages.back().size(),
+                                    MPI_CHAR,
+                                    rank,
+                                    tag,
+                                    communicator,
+                                    &requests[messages.size() - 1]);
+        AssertThrowMPI(error);
+      }
+    for (const unsigned int rank : neighbours)
+      {
+        MPI_Status status;
+        int size, error = MPI_Probe(rank, tag, communicator, &status);
+        AssertThrowMPI(error);
+        error = MPI_Get_count(&status, MPI_CHAR, &size);
+        AssertThrowMPI(error);
+        std::vector<char> message(size);
+        error = MPI_Recv(message.data(), size, MPI_CHAR, rank, tag, communicator, MPI_STATUS_IGNORE);
+        AssertThrowMPI(error);
+        for (Record &record : Utilities::unpack<std::vector<Record>>(message, /*allow_compression=*/false))
+          immigrants.push_back(std::move(record));
+      }
+    const int error = MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+    AssertThrowMPI(error);
+    emigrants.clear();
+    return immigrants;
+  }
+
+
+  template <int dim>
   void PointSet<dim>::hand_over(const Disorder disorder)
   {
     if (disorder != Disorder::none)
-      for (const Record &record : emigrants.exchange())
+      for (const Record &record : exchange())
         insert(table.number_of(mesh.create_cell_iterator(CellId(record.cell))), record);
     if (disorder == Disorder::far)
       {

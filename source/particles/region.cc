@@ -51,31 +51,9 @@ namespace scree
 
 
   template <int dim>
-  Region<dim>::Region(const std::string &where,
-                      const std::string &expression,
-                      const std::shared_ptr<const SourceMap> &map,
-                      const std::shared_ptr<const LevelSet<dim>> &table)
-      : function(parse_expression<dim>(where, expression, 1))
-      , map(map)
-      , table(table)
-  {
-  }
-
-
-  template <int dim>
   Point<dim> Region<dim>::corner(const Point<dim> &lower, const double width, const unsigned int vertex)
   {
     return sample(lower, width, vertex, 2, 1e-6);
-  }
-
-
-  template <int dim>
-  Point<dim> Region<dim>::middle(const Point<dim> &lower, const double width)
-  {
-    Point<dim> middle = lower;
-    for (unsigned int a = 0; a < dim; ++a)
-      middle[a] += width / 2.;
-    return middle;
   }
 
 

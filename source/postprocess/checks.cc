@@ -3,8 +3,6 @@
 #include <scree/tensor/invariants.h>
 #include <scree/tensor/vector.h>
 
-#include <cstdio>
-
 namespace scree
 {
   using namespace dealii;
@@ -21,11 +19,7 @@ namespace scree
     {
       std::string text = "(";
       for (unsigned int a = 0; a < dim; ++a)
-        {
-          char number[32];
-          std::snprintf(number, sizeof number, "%.6g", x[a]);
-          text += (a > 0 ? ", " : "") + std::string(number);
-        }
+        text += (a > 0 ? ", " : "") + formatted("%.6g", x[a]);
       return text + ") m";
     }
 
@@ -140,12 +134,11 @@ namespace scree
   {
     const double g = gravity.norm();
     std::vector<double> ends(2, std::numeric_limits<double>::lowest()); // heights: highest, minus lowest
-    for (const SoilBody<dim> &body : bodies)
-      if (!body.is_rigid && g > 0.)
-        for_each_point(body.points, [&](const auto &point) {
-          const double height = -(gravity * (point.location - Point<dim>())) / g;
-          ends                = { std::max(ends[0], height), std::max(ends[1], -height) };
-        });
+    if (g > 0.)
+      for_each_moving_point(bodies, [&](const auto &, const auto &point) {
+        const double height = -(gravity * (point.location - Point<dim>())) / g;
+        ends                = { std::max(ends[0], height), std::max(ends[1], -height) };
+      });
     Utilities::MPI::max(ends, grid.communicator(), ends);
     const double height      = ends[0] + ends[1] + grid.cell_size();
     const auto look_at_depth = [&](const auto &point, const auto &name) {
@@ -291,28 +284,6 @@ namespace scree
 
     constexpr double bound_of_motion = 1e-3; // doc/theory/single_phase.md
 
-    /// Of the bodies that can move, of all ranks, kg. Collective.
-    template <int dim>
-    double mass_of_soil(const std::list<SoilBody<dim>> &bodies, const MPI_Comm communicator)
-    {
-      double mass = 0.;
-      for (const auto &body : bodies)
-        if (!body.is_rigid)
-          for_each_point(body.points, [&](const auto &point) { mass += point.properties[body.layout.mass]; });
-      return Utilities::MPI::sum(mass, communicator);
-    }
-
-
-    /// Of all ranks, kg. Collective.
-    template <int dim>
-    double mass_of_water(const std::list<WaterPhase<dim>> &water, const MPI_Comm communicator)
-    {
-      double mass = 0.;
-      for (const auto &part : water)
-        for_each_point(part.points(), [&](const auto &point) { mass += point.properties[part.layout.mass]; });
-      return Utilities::MPI::sum(mass, communicator);
-    }
-
     /// The larger one; what is no number is largest.
     double worse(const double so_far, const double value)
     {
@@ -332,15 +303,13 @@ namespace scree
     PointSums<dim> sums(bodies, water, gravity, communicator);
     sums.kinetic *= mass_scaling;
     sums.momentum *= mass_scaling;
-    const double soil_now      = mass_of_soil(bodies, communicator);
-    const double mass_now      = mass_of_water(water, communicator);
     const double energy        = sums.kinetic + sums.potential + sums.elastic;
     const double own_potential = sums.potential + totals.lost_energy - totals.entered_energy;
     if (!has_start)
       {
         has_start       = true;
-        soil_mass       = soil_now + totals.lost_mass - totals.entered_mass;
-        water_mass      = mass_now + totals.lost_water_mass - totals.entered_water_mass;
+        soil_mass       = sums.moving_mass + totals.lost_mass - totals.entered_mass;
+        water_mass      = sums.water_mass + totals.lost_water_mass - totals.entered_water_mass;
         start_momentum  = sums.momentum - totals.impulse();
         start_energy    = energy + totals.energy_taken();
         start_kinetic   = sums.kinetic;
@@ -351,13 +320,13 @@ namespace scree
       if (const double all = start + entered; all > 0.)
         mass_error = worse(mass_error, std::abs(now + lost - entered - start) / all);
     };
-    look_at_mass(soil_mass, soil_now, totals.lost_mass, totals.entered_mass);
-    look_at_mass(water_mass, mass_now, totals.lost_water_mass, totals.entered_water_mass);
+    look_at_mass(soil_mass, sums.moving_mass, totals.lost_mass, totals.entered_mass);
+    look_at_mass(water_mass, sums.water_mass, totals.lost_water_mass, totals.entered_water_mass);
 
-    momentum_residual = worse(momentum_residual, (sums.momentum - start_momentum - totals.impulse()).norm());
-    momentum_scale    = std::max({ momentum_scale,
-                                   totals.balance.body_impulse.norm(),
-                                   std::sqrt(2. * mass_scaling * (soil_now + mass_now) * sums.kinetic) });
+    momentum_residual    = worse(momentum_residual, (sums.momentum - start_momentum - totals.impulse()).norm());
+    const double inertia = mass_scaling * (sums.moving_mass + sums.water_mass); // kg
+    momentum_scale =
+        std::max({ momentum_scale, totals.balance.body_impulse.norm(), std::sqrt(2. * inertia * sums.kinetic) });
 
     const Budget<dim> &balance = totals.balance;
     least_potential            = std::min(least_potential, own_potential);
@@ -401,13 +370,12 @@ namespace scree
   {
     const double waited = std::abs(work * (last_time - start_time) - work_in_time); // J s
     if (!(std::abs(work) > least_energy()) || waited == 0.)
-      return { "kinetic energy with \"Mass scaling\" not judged: hardly any work", "", false, "" };
+      return { "kinetic energy with \"Mass scaling\" not judged: hardly any work", "" };
     const double share = motion / waited;
     return { "mean kinetic energy " + short_text(100. * share) + " % of the work, with masses times " +
                  short_text(mass_scaling) + "; " + short_text(100. * share / mass_scaling) + " % with true ones",
              short_text(100. * bound_of_motion) + " %, else \"Mass scaling\" is too large",
-             !(share <= bound_of_motion),
-             "" };
+             !(share <= bound_of_motion) };
   }
 
 
@@ -417,25 +385,19 @@ namespace scree
     std::vector<CheckResult> list;
     if (!has_start)
       return list;
-    list.push_back(
-        { "mass balance " + short_text(mass_error), short_text(bound_of_mass), mass_error > bound_of_mass, "" });
+    const auto add = [&](const std::string &name, const double error, const double bound) {
+      list.push_back({ name + short_text(error), short_text(bound), error > bound });
+    };
+    add("mass balance ", mass_error, bound_of_mass);
     if (momentum_scale > 0.)
-      {
-        const double error = momentum_residual / momentum_scale;
-        list.push_back(
-            { "momentum balance " + short_text(error), short_text(bound_of_momentum), error > bound_of_momentum, "" });
-      }
+      add("momentum balance ", momentum_residual / momentum_scale, bound_of_momentum);
     if (const double released = released_energy(); energy_is_closed && released > 0.)
       {
         list.push_back({ "largest energy gain " + short_text(100. * gain / released) + " %" + gain_channel,
                          short_text(100. * bound_of_gain) + " %",
-                         gain > bound_of_gain * released,
-                         "" });
+                         gain > bound_of_gain * released });
         list.push_back(
-            { "numerical dissipation " + short_text(100. * dissipation / released) + " % of the released energy",
-              "",
-              false,
-              "" });
+            { "numerical dissipation " + short_text(100. * dissipation / released) + " % of the released energy", "" });
       }
     if (mass_scaling > 1.)
       list.push_back(check_of_motion());

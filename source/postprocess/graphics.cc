@@ -317,19 +317,6 @@ namespace scree
 
 
   template <int dim>
-  Graphics<dim>::Graphics(const BackgroundGrid<dim> &grid,
-                          const OutputParameters &parameters,
-                          const std::string &run_folder)
-      : grid(grid)
-      , pictures(parameters.graphics_kind())
-      , folder(run_folder + "/solution/")
-      , rank(Utilities::MPI::this_mpi_process(grid.communicator()))
-      , n_ranks(Utilities::MPI::n_mpi_processes(grid.communicator()))
-  {
-  }
-
-
-  template <int dim>
   FileJob Graphics<dim>::write(const std::list<SoilBody<dim>> &bodies,
                                const NodalField<dim> &field,
                                const double time,

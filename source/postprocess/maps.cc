@@ -14,20 +14,18 @@ namespace scree
     constexpr unsigned int n_sums = dim + 2; // volume, mass and momentum of a column
     const std::size_t n_columns   = mass.size();
     std::vector<double> sums(n_sums * n_columns, 0.);
-    for (const auto &body : bodies)
-      if (!body.is_rigid)
-        for_each_point(body.points, [&](const auto &point) {
-          const double *values = point.properties;
-          for (const auto &[column, weight] : columns.around(point.location))
-            {
-              double *of_column = sums.data() + n_sums * column;
-              const double m    = weight * values[body.layout.mass];
-              of_column[0] += weight * values[body.layout.volume];
-              of_column[1] += m;
-              for (unsigned int a = 0; a < dim; ++a)
-                of_column[2 + a] += m * values[body.layout.velocity + a];
-            }
-        });
+    for_each_moving_point(bodies, [&](const auto &body, const auto &point) {
+      const double *values = point.properties;
+      for (const auto &[column, weight] : columns.around(point.location))
+        {
+          double *of_column = sums.data() + n_sums * column;
+          const double m    = weight * values[body.layout.mass];
+          of_column[0] += weight * values[body.layout.volume];
+          of_column[1] += m;
+          for (unsigned int a = 0; a < dim; ++a)
+            of_column[2 + a] += m * values[body.layout.velocity + a];
+        }
+    });
     Utilities::MPI::sum(sums, grid.communicator(), sums);
 
     const double area = columns.area();

@@ -10,14 +10,6 @@ namespace scree
 {
   using namespace dealii;
 
-  double CellContents::saturation(const double cell_volume) const
-  {
-    const double pores = n_soil_points > 0 ? soil_volume - grain_volume : cell_volume;
-    if (pores <= 0) // soil crushed to its grains: what water there is overflows
-      return water_volume > 0 ? 1. : 0.;
-    return std::min(1., water_volume / pores);
-  }
-
 
   template <int dim>
   std::vector<CellContents> contents_of_cells(const std::list<SoilBody<dim>> &bodies,
@@ -109,19 +101,13 @@ namespace scree
         });
         energies.finish(elastic);
       }
-    for (const auto &one : water)
-      for_each_point(one.points(), [&](const auto &point) {
-        add_motion(one.layout, one.affine_inertia, point.properties, point.location, gravity);
-      });
-
-    std::vector<double> sums{ soil_points, soil_mass, kinetic, potential, elastic, pressure };
-    for (unsigned int a = 0; a < dim; ++a)
-      sums.push_back(momentum[a]);
-    Utilities::MPI::sum(sums, communicator, sums);
-    soil_points = sums[0], soil_mass = sums[1], kinetic = sums[2], potential = sums[3], elastic = sums[4];
-    pressure = sums[5];
-    for (unsigned int a = 0; a < dim; ++a)
-      momentum[a] = sums[6 + a];
+    for_each_moving_point(water, [&](const auto &part, const auto &point) {
+      water_mass += point.properties[part.layout.mass];
+      add_motion(part.layout, part.affine_inertia, point.properties, point.location, gravity);
+    });
+    NumbersOf sums{ &soil_points, &soil_mass, &moving_mass, &water_mass, &kinetic, &potential, &elastic, &pressure };
+    sums &momentum;
+    sums.sum_over_ranks(communicator);
 
     std::vector<double> largest{ largest_pressure, height, largest_porosity };
     Utilities::MPI::max(largest, communicator, largest);
@@ -139,6 +125,8 @@ namespace scree
     const double P    = mean_effective_stress(properties + body.layout.stress);
     soil_points += 1;
     soil_mass += mass;
+    if (!body.is_rigid)
+      moving_mass += mass;
     add_motion(body.layout, body.affine_inertia, properties, x, gravity);
     pressure += P;
     largest_pressure = std::max(largest_pressure, P);
@@ -172,17 +160,6 @@ namespace scree
 
   template struct PointSums<2>;
   template struct PointSums<3>;
-
-
-  template <int dim>
-  Point<dim> CellColumns<dim>::middle(const std::size_t column) const
-  {
-    Point<dim> x;
-    std::size_t rest = column;
-    for (unsigned int a = 0; a + 1 < dim; ++a, rest /= n[a - 1])
-      x[a] = grid.lower_corner()[a] + (rest % n[a] + 0.5) * grid.cell_size();
-    return x;
-  }
 
 
   template <int dim>
@@ -415,49 +392,6 @@ namespace scree
   }
 
 
-  namespace
-  {
-    /// This rank's points of a set go to `parts`, by their coordinate along an axis.
-    template <int dim>
-    void append_parts(const PointSet<dim> &points,
-                      const unsigned int mass_slot,
-                      const unsigned int axis,
-                      std::vector<PartOfMass> &parts)
-    {
-      for_each_point(points, [&](const auto &point) {
-        parts.push_back({ point.location[axis], point.properties[mass_slot] });
-      });
-    }
-  } // namespace
-
-
-  template <int dim>
-  std::vector<double> mass_percentiles(const std::list<SoilBody<dim>> &bodies,
-                                       const BackgroundGrid<dim> &grid,
-                                       const unsigned int axis,
-                                       const std::vector<double> &fractions)
-  {
-    std::vector<PartOfMass> parts;
-    for (const auto &body : bodies)
-      if (!body.is_rigid)
-        append_parts(body.points, body.layout.mass, axis, parts);
-    return percentiles(parts, grid.lower_corner()[axis], grid.upper_corner()[axis], fractions, grid.communicator());
-  }
-
-
-  template <int dim>
-  std::vector<double> mass_percentiles(const std::list<WaterPhase<dim>> &water,
-                                       const BackgroundGrid<dim> &grid,
-                                       const unsigned int axis,
-                                       const std::vector<double> &fractions)
-  {
-    std::vector<PartOfMass> parts;
-    for (const auto &one : water)
-      append_parts(one.points(), one.layout.mass, axis, parts);
-    return percentiles(parts, grid.lower_corner()[axis], grid.upper_corner()[axis], fractions, grid.communicator());
-  }
-
-
   template <int dim>
   double least_distance(const std::list<SoilBody<dim>> &bodies,
                         const std::list<WaterPhase<dim>> &water,
@@ -522,26 +456,9 @@ namespace scree
     return measures;
   }
 
-  template std::vector<double> mass_percentiles(const std::list<SoilBody<2>> &,
-                                                const BackgroundGrid<2> &,
-                                                const unsigned int,
-                                                const std::vector<double> &);
-  template std::vector<double> mass_percentiles(const std::list<WaterPhase<2>> &,
-                                                const BackgroundGrid<2> &,
-                                                const unsigned int,
-                                                const std::vector<double> &);
   template decltype(least_distance<2>) least_distance<2>;
   template decltype(least_distance<3>) least_distance<3>;
   template decltype(measure_water<2>) measure_water<2>;
-
-  template std::vector<double> mass_percentiles(const std::list<SoilBody<3>> &,
-                                                const BackgroundGrid<3> &,
-                                                const unsigned int,
-                                                const std::vector<double> &);
-  template std::vector<double> mass_percentiles(const std::list<WaterPhase<3>> &,
-                                                const BackgroundGrid<3> &,
-                                                const unsigned int,
-                                                const std::vector<double> &);
   template decltype(measure_water<3>) measure_water<3>;
 
 

@@ -2,6 +2,7 @@
 #include <scree/postprocess/graphics.h>
 #include <scree/postprocess/probes.h>
 #include <scree/tensor/invariants.h>
+#include <scree/tensor/vector.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -222,22 +223,16 @@ namespace scree
     {
       std::vector<double> numbers;
       for (const std::string &word : Utilities::split_string_list(text))
-        {
-          char *end          = nullptr;
-          const double value = std::strtod(word.c_str(), &end);
-          if (word.empty() || *end != '\0' || !std::isfinite(value))
-            return {};
-          numbers.push_back(value);
-        }
+        if (numbers.push_back(number_of(word)); !std::isfinite(numbers.back()))
+          return {};
       return numbers.size() == n ? numbers : std::vector<double>();
     }
 
     bool is_file_name(const std::string &name)
     {
-      for (const unsigned char letter : name)
-        if (!std::isalnum(letter) && letter != '_' && letter != '-')
-          return false;
-      return !name.empty();
+      return !name.empty() && std::all_of(name.begin(), name.end(), [](const unsigned char letter) {
+        return std::isalnum(letter) || letter == '_' || letter == '-';
+      });
     }
 
     /// `n_points` points of `n_coordinates` each a name, as in "toe: 0.4, 0.1; crest: 1, 2".
@@ -371,19 +366,11 @@ namespace scree
 
   namespace
   {
-    template <int dim>
-    Point<dim> point_of(const std::vector<double> &coordinates)
-    {
-      Point<dim> point;
-      std::copy_n(coordinates.begin(), dim, &point[0]);
-      return point;
-    }
-
     /// Places at equal distances from one end of a line to the other.
     template <int dim>
     std::vector<Point<dim>> places_on_line(const NamedPlace &line, const unsigned int n)
     {
-      const auto begin = point_of<dim>(line.points[0]), end = point_of<dim>(line.points[1]);
+      const Point<dim> begin(vector_of<dim>(line.points[0].data())), end(vector_of<dim>(line.points[1].data()));
       std::vector<Point<dim>> places;
       for (unsigned int i = 0; i < n; ++i)
         places.push_back(begin + i / (n - 1.) * (end - begin));
@@ -416,7 +403,7 @@ namespace scree
 
     std::vector<Point<dim>> points;
     for (const NamedPlace &place : parameters.list_of_places(dim))
-      points.push_back(point_of<dim>(place.points[0]));
+      points.emplace_back(vector_of<dim>(place.points[0].data()));
     Group &places  = new_group(false, parameters.list_of_places(dim));
     places.columns = names;
     places.rows    = [this, values = PlaceValues<dim>(grid, points)](const auto &state) {
@@ -498,13 +485,6 @@ namespace scree
           return Rows{ wall_forces->collect(state.totals, state.time, state.view) };
         };
       }
-  }
-
-
-  template <int dim>
-  void Probes<dim>::add_table(Group &group, const std::string &name)
-  {
-    group.tables.push_back(&tables.emplace_back(folder, "probe_" + name));
   }
 
 

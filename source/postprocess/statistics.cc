@@ -8,10 +8,6 @@ namespace scree
 {
   using namespace dealii;
 
-  template struct RunBalance<2>;
-  template struct RunBalance<3>;
-
-
   namespace
   {
     constexpr double rest_part     = 1e-3; // of sqrt(g h): soil at rest takes more than 1000 sqrt(h/g) for a cell
@@ -49,18 +45,6 @@ namespace scree
 
 
   template <int dim>
-  SoilMotion<dim>::SoilMotion(const BackgroundGrid<dim> &grid,
-                              const Tensor<1, dim> &gravity,
-                              const DiscreteLevelSet<dim> *bed)
-      : grid(grid)
-      , gravity(gravity)
-      , bed(bed)
-      , columns(grid)
-  {
-  }
-
-
-  template <int dim>
   double SoilMotion<dim>::rest_speed() const
   {
     return rest_part * std::sqrt(gravity.norm() * grid.cell_size());
@@ -94,9 +78,7 @@ namespace scree
       speeds.push_back({ speed, mass });
       largest = std::max(largest, speed);
     };
-    for (const SoilBody<dim> &body : bodies)
-      if (!body.is_rigid)
-        for_each_point(body.points, [&](const auto &point) { include(body, point); });
+    for_each_moving_point(bodies, include);
     Utilities::MPI::sum(sums, grid.communicator(), sums);
     largest = Utilities::MPI::max(largest, grid.communicator());
 
@@ -178,8 +160,7 @@ namespace scree
       return {};
     return { { "thickness of the moving soil " + short_text(thickness_then) + " cells",
                "at least " + short_text(least_cells) + ", else smaller cells",
-               thickness_then < least_cells,
-               "" } };
+               thickness_then < least_cells } };
   }
 
 
@@ -281,8 +262,8 @@ namespace scree
                              last_step,
                              PointSums<dim>(bodies, water, gravity, grid.communicator()),
                              water.empty() ? WaterMeasures() : measure_water(bodies, water, grid),
-                             bodies.empty() ? std::vector<double>() : mass_percentiles(bodies, grid, 0, fronts),
-                             water.empty() ? std::vector<double>() : mass_percentiles(water, grid, 0, fronts),
+                             bodies.empty() ? std::vector<double>() : mass_percentiles(bodies, grid, fronts),
+                             water.empty() ? std::vector<double>() : mass_percentiles(water, grid, fronts),
                              bodies.empty() ? MotionNumbers() : motion.look(bodies, time),
                              local.sum_over_ranks(grid.communicator()),
                              time,
@@ -310,26 +291,6 @@ namespace scree
                   ExcMessage("Column '" + column + "' of statistics is not a number at t = " + number_text(time) +
                              " s: the motion was unstable before. The rows above it tell since when. Remedies: a "
                              "smaller 'Courant number' in subsection Time step; look at what moves there."));
-  }
-
-
-  template <int dim>
-  std::vector<std::string> Statistics<dim>::columns() const
-  {
-    std::vector<std::string> result;
-    for (const auto &[column, value] : last_row)
-      result.push_back(column);
-    return result;
-  }
-
-
-  template <int dim>
-  std::vector<double> Statistics<dim>::values() const
-  {
-    std::vector<double> result;
-    for (const auto &[column, value] : last_row)
-      result.push_back(value);
-    return result;
   }
 
 

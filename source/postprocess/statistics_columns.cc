@@ -19,24 +19,24 @@ namespace scree
     }
 
 
-    const RegisterColumns run_columns(ColumnTopic::run,
-                                      Always(),
-                                      Column{ "Time", "s", OF_NOW(now.time) },
-                                      Column{ "Step", "", OF_NOW(now.step) },
-                                      Column{ "Time step", "s", OF_NOW(now.time_step) },
-                                      Column{ "Points", "", OF_NOW(now.sums.soil_points) },
-                                      Column{ "Mass", "kg", OF_NOW(now.sums.soil_mass) },
-                                      Column{ "Momentum", "N s", OF_NOW(now.sums.momentum) },
-                                      Column{
-                                          "Momentum residual",
-                                          "N s",
-                                          OF_NOW((now.momentum() - now.before.start_momentum - now.impulse()).norm()) },
-                                      Column{ "Kinetic energy", "J", OF_NOW(now.sums.kinetic) },
-                                      Column{ "Potential energy", "J", OF_NOW(now.sums.potential) },
-                                      Column{ "Elastic energy", "J", OF_NOW(now.sums.elastic) },
-                                      Column{ "Plastic dissipation", "J", OF_NOW(now.totals.plastic_dissipation) },
-                                      Column{ "Wall dissipation", "J", OF_NOW(now.totals.balance.wall_dissipation) },
-                                      Column{ "Numerical dissipation", "J", OF_NOW(numerical_dissipation(now)) });
+    const RegisterColumns
+        run_columns(ColumnTopic::run,
+                    Always(),
+                    Column{ "Time", "s", OF_NOW(now.time) },
+                    Column{ "Step", "", OF_NOW(now.step) },
+                    Column{ "Time step", "s", OF_NOW(now.time_step) },
+                    Column{ "Points", "", OF_NOW(now.sums.soil_points) },
+                    Column{ "Mass", "kg", OF_NOW(now.sums.soil_mass) },
+                    Column{ "Momentum", "N s", OF_NOW(now.sums.momentum) },
+                    Column{ "Momentum residual",
+                            "N s",
+                            OF_NOW((now.momentum() - now.before.start_momentum - now.impulse()).norm()) },
+                    Column{ "Kinetic energy", "J", OF_NOW(now.sums.kinetic) },
+                    Column{ "Potential energy", "J", OF_NOW(now.sums.potential) },
+                    Column{ "Elastic energy", "J", OF_NOW(now.sums.elastic) },
+                    Column{ "Plastic dissipation", "J", OF_NOW(now.totals.material.plastic_dissipation) },
+                    Column{ "Wall dissipation", "J", OF_NOW(now.totals.balance.wall_dissipation) },
+                    Column{ "Numerical dissipation", "J", OF_NOW(numerical_dissipation(now)) });
 
     const RegisterColumns lost_columns(ColumnTopic::lost,
                                        Always(),
@@ -69,7 +69,7 @@ namespace scree
     template <int dim>
     double n_separated(const Snapshot<dim> &now)
     {
-      return dealii::Utilities::MPI::sum(double(now.last_step.n_separated), now.grid.communicator());
+      return dealii::Utilities::MPI::sum(now.last_step.n_separated, now.grid.communicator());
     }
 
 
@@ -88,10 +88,12 @@ namespace scree
         Column{ "Separated points", "", OF_NOW(n_separated(now)) },
         Column{ "Substeps per update",
                 "",
-                OF_NOW(now.totals.n_updates > 0 ? now.totals.n_substeps / now.totals.n_updates : 0.) },
-        Column{ "Fallbacks", "", OF_NOW(now.totals.n_fallbacks) },
-        Column{ "Vertices", "", OF_NOW(now.totals.n_vertices) },
-        Column{ "Unresolved", "", OF_NOW(now.totals.n_unresolved) },
+                OF_NOW(now.totals.material.n_updates > 0
+                           ? now.totals.material.n_substeps / now.totals.material.n_updates
+                           : 0.) },
+        Column{ "Fallbacks", "", OF_NOW(now.totals.material.n_fallbacks) },
+        Column{ "Vertices", "", OF_NOW(now.totals.material.n_vertices) },
+        Column{ "Unresolved", "", OF_NOW(now.totals.material.n_unresolved) },
         Column{ "Speed 99 %", "m/s", OF_NOW(now.motion.speed) },
         Column{ "Moving part", "-", OF_NOW(now.motion.moving_part) },
         Column{ "Moving thickness", "cells", OF_NOW(now.motion.thickness) },

@@ -75,12 +75,9 @@ namespace scree
     /// " Did you mean ...?", or nothing.
     std::string meant(const std::string &word)
     {
-      std::vector<std::string> names;
-      for (const Option &option : options())
-        names.push_back(option.name);
       const std::size_t first  = word.find_first_not_of('-');
       const std::string dashed = "--" + (first == std::string::npos ? "" : word.substr(first));
-      const auto close         = nearest(names, dashed);
+      const auto close         = nearest(names_of(options()), dashed);
       return close.empty() ? "" : " Did you mean " + quoted(close.front()) + '?';
     }
 
@@ -422,22 +419,13 @@ namespace scree
     }
 
 
-    int run_case(const Arguments &arguments, const MPI_Comm communicator)
-    {
-      Parameters parameters(arguments.case_file);
-      const Start start = arguments.task == Task::resume ? Start::resume : Start::fresh;
-      End end           = End::complete;
-      in_its_dimension(parameters,
-                       [&](const auto dim) { end = run_in_phases<dim()>(parameters, start, communicator); });
-      return end == End::stopped ? exit_code_of_a_stop : 0;
-    }
-
-
-    int find_safety_of_case(const Arguments &arguments, const MPI_Comm communicator)
+    /// Reads the case, and calls `run` with its dimension and entries; returns the exit code of the run's end.
+    template <typename Run>
+    int run_case(const Arguments &arguments, const Run &run)
     {
       Parameters parameters(arguments.case_file);
       End end = End::complete;
-      in_its_dimension(parameters, [&](const auto dim) { end = find_safety<dim()>(parameters, communicator); });
+      in_its_dimension(parameters, [&](const auto dim) { end = run(dim, parameters); });
       return end == End::stopped ? exit_code_of_a_stop : 0;
     }
 
@@ -461,16 +449,19 @@ namespace scree
                       : write_new_case(arguments.scene, arguments.case_file, arguments.overwrite, communicator));
           return 0;
         case Task::safety:
-          return find_safety_of_case(arguments, communicator);
+          return run_case(arguments, [&](const auto dim, const Parameters &parameters) {
+            return find_safety<dim()>(parameters, communicator);
+          });
         case Task::advise:
-          {
-            Parameters parameters(arguments.case_file);
-            in_its_dimension(parameters,
-                             [&](const auto dim) { advise<dim()>(parameters, arguments.accuracy, communicator, out); });
-            return 0;
-          }
+          return run_case(arguments, [&](const auto dim, Parameters &parameters) {
+            advise<dim()>(parameters, arguments.accuracy, communicator, out);
+            return End::complete;
+          });
         default:
-          return run_case(arguments, communicator);
+          return run_case(arguments, [&](const auto dim, Parameters &parameters) {
+            const Start start = arguments.task == Task::resume ? Start::resume : Start::fresh;
+            return run_in_phases<dim()>(parameters, start, communicator);
+          });
         }
     }
   } // namespace

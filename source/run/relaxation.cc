@@ -13,15 +13,6 @@ namespace scree
     constexpr double speed_at_rest     = 2e-4; // over sqrt(g H): terminal speed with a thousandth of strength missing
 
 
-    template <int dim, typename Visit>
-    void visit_moving(const std::list<SoilBody<dim>> &bodies, const Visit &visit)
-    {
-      for (const auto &body : bodies)
-        if (!body.is_rigid)
-          for_each_point(body.points, [&](const auto &point) { visit(body, point); });
-    }
-
-
     /// Extents along gravity, m.
     struct Heights
     {
@@ -48,7 +39,7 @@ namespace scree
         n_columns *= n[a] = a == axis ? 1 : std::lround(sides[a] / h);
 
       std::vector<double> tops(n_columns, nowhere), depths(n_columns, nowhere); // depth: minus the lowest height
-      visit_moving(scene.bodies, [&](const auto &, const auto &point) {
+      for_each_moving_point(scene.bodies, [&](const auto &, const auto &point) {
         std::size_t column = 0;
         for (unsigned int a = 0; a < dim; ++a)
           column =
@@ -90,14 +81,14 @@ namespace scree
       constexpr unsigned int n_bins = 1500;
       constexpr double bins_per_e   = 100.;
       double largest                = 0.;
-      visit_moving(bodies,
-                   [&](const auto &body, const auto &point) { largest = std::max(largest, value(body, point)); });
+      for_each_moving_point(
+          bodies, [&](const auto &body, const auto &point) { largest = std::max(largest, value(body, point)); });
       largest = Utilities::MPI::max(largest, communicator);
       if (largest == 0. || part == 0.)
         return largest;
 
       std::vector<double> masses(n_bins, 0.); // from the largest value down
-      visit_moving(bodies, [&](const auto &body, const auto &point) {
+      for_each_moving_point(bodies, [&](const auto &body, const auto &point) {
         const double bin = -bins_per_e * std::log(std::max(value(body, point), 1e-100) / largest);
         masses[std::min(bin, n_bins - 1.)] += point.properties[body.layout.mass];
       });
@@ -138,7 +129,7 @@ namespace scree
                               const MPI_Comm communicator)
     {
       std::vector<double> sums(2, 0.); // mass, and mass over the square of the wave speed
-      visit_moving(bodies, [&](const auto &body, const auto &point) {
+      for_each_moving_point(bodies, [&](const auto &body, const auto &point) {
         const double pressure = mean_effective_stress(point.properties + body.layout.stress);
         const double c        = body.wave_speed(body.material->initial_bulk_modulus(pressure), /* compression */ 0.);
         const double m        = point.properties[body.layout.mass];
@@ -148,26 +139,6 @@ namespace scree
       return 0.5 * gravity * height * height * sums[1] / sums[0];
     }
   } // namespace
-
-
-  template <int dim>
-  Relaxation<dim>::Relaxation(const Parameters &parameters,
-                              Scene<dim> &scene,
-                              Scheme<dim> &scheme,
-                              StepControl<dim> &control,
-                              RunFolder &folder,
-                              const std::function<void(double)> &advance)
-      : parameters(parameters)
-      , scene(scene)
-      , scheme(scheme)
-      , control(control)
-      , folder(folder)
-      , advance(advance)
-      , communicator(scene.grid.communicator())
-      , gravity(scene.forcing.gravity().norm())
-  {
-    scene.mark_start();
-  }
 
 
   template <int dim>
@@ -257,16 +228,12 @@ namespace scree
     return { { stands ? "displacement while settling " + short_text(moved) + " m"
                       : "this slope does not stand (moved " + short_text(moved) + " m while settling): see --safety",
                short_text(allowed) + " m",
-               !stands,
-               "" },
+               !stands },
              { "unbalanced force at the release " + short_text(unbalanced_force) + " of the weight",
                short_text(parameters.settling.unbalanced_force),
-               !rests,
-               "" },
+               !rests },
              { "largest plastic shear strain of settling " +
                    short_text(largest_plastic_strain(scene.bodies, communicator)),
-               "",
-               false,
                "" } };
   }
 

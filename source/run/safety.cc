@@ -70,15 +70,6 @@ namespace scree
     }
 
 
-    std::string table_line(const char *format, const double factor, const Trial &trial)
-    {
-      char line[100];
-      std::snprintf(
-          line, sizeof line, format, factor, text_of(trial.end).c_str(), trial.displacement, trial.time, trial.steps);
-      return line;
-    }
-
-
     /// Trials of a case, one after the other, each a run with a folder of its own.
     template <int dim>
     class Trials
@@ -174,7 +165,12 @@ namespace scree
       {
         if (rows.is_empty())
           folder.log("   factor   trial   displacement (m)   time (s)    steps");
-        folder.log(table_line("   %-6.4g   %-7s %16.4g   %8.3f  %7llu", factor, trial));
+        folder.log(formatted("   %-6.4g   %-7s %16.4g   %8.3f  %7llu",
+                             factor,
+                             text_of(trial.end).c_str(),
+                             trial.displacement,
+                             trial.time,
+                             trial.steps));
         if (!folder.is_writer() || trial.end == TrialEnd::undecided)
           return;
         if (rows.is_empty())
@@ -226,17 +222,13 @@ namespace scree
         return End::stopped;
       }
     const int digits = std::max(0, int(std::ceil(-std::log10(safety.tolerance) - 1e-9)));
-    char text[100];
-    std::snprintf(text,
-                  sizeof text,
-                  "Factor of safety  %.*f (between %.*f and %.*f)",
-                  digits,
-                  0.5 * (bracket->rests + bracket->fails),
-                  digits + 1,
-                  bracket->rests,
-                  digits + 1,
-                  bracket->fails);
-    trials.log(text);
+    trials.log(formatted("Factor of safety  %.*f (between %.*f and %.*f)",
+                         digits,
+                         0.5 * (bracket->rests + bracket->fails),
+                         digits + 1,
+                         bracket->rests,
+                         digits + 1,
+                         bracket->fails));
     trials.log("Results     " + parameters.output_directory +
                "/safety: safety.csv; rests and fails, the trials beside the factor, with solution/points.pvd");
     return End::complete;

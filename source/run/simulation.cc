@@ -32,18 +32,14 @@ namespace scree
       {
         constexpr double part_behind_front = 0.90; // of the mass
         if (!shows_speed)
-          return scene.bodies.empty() ? mass_percentiles(scene.water, scene.grid, 0, { part_behind_front })[0]
-                                      : mass_percentiles(scene.bodies, scene.grid, 0, { part_behind_front })[0];
+          return scene.bodies.empty() ? mass_percentiles(scene.water, scene.grid, { part_behind_front })[0]
+                                      : mass_percentiles(scene.bodies, scene.grid, { part_behind_front })[0];
         double largest  = 0.;
-        const auto look = [&](const PointSet<dim> &points, const unsigned int velocity) {
-          for_each_point(points, [&](const auto &point) {
-            largest = std::max(largest, vector_of<dim>(point.properties + velocity).norm());
-          });
+        const auto look = [&](const auto &phase, const auto &point) {
+          largest = std::max(largest, vector_of<dim>(point.properties + phase.layout.velocity).norm());
         };
-        for (const auto &body : scene.bodies)
-          look(body.points, body.layout.velocity);
-        for (const auto &part : scene.water)
-          look(part.points(), part.layout.velocity);
+        for_each_moving_point(scene.bodies, look);
+        for_each_moving_point(scene.water, look);
         return Utilities::MPI::max(largest, scene.grid.communicator());
       }
 
@@ -207,7 +203,7 @@ namespace scree
     totals.balance += step.balance;
     if (is_released && scene.forcing.mass_scaling() > 1.)
       totals.balance.motion += 0.5 * time_step * scheme->nodal_forces(time_step).kinetic;
-    totals.add(step.material);
+    totals.material.add(step.material);
     last_update = step.material;
     point_updates += step.n_updates;
     account_for_lost_points(scene, totals, clock.time());

@@ -50,30 +50,6 @@ namespace scree
 
 
   template <int dim>
-  StepControl<dim>::StepControl(const Scene<dim> &scene,
-                                const TimeStepper &clock,
-                                StopRequests &stop,
-                                TimerOutput &timer,
-                                const MPI_Comm communicator)
-      : scene(scene)
-      , clock(clock)
-      , stop(stop)
-      , timer(timer)
-      , communicator(communicator)
-  {
-  }
-
-
-  template <int dim>
-  void StepControl<dim>::measure_speeds()
-  {
-    const Speeds of_rank = scene.speeds();
-    std::vector<double> largest{ of_rank.wave, of_rank.points };
-    agree_on(largest);
-  }
-
-
-  template <int dim>
   void StepControl<dim>::agree_on(std::vector<double> &largest)
   {
     const TimedPart part(timer, TimerSection::waiting);
@@ -86,30 +62,6 @@ namespace scree
     scene.include_inflows(speeds);
     reason = static_cast<StopReason>(largest.back());
     largest.pop_back();
-  }
-
-
-  template <int dim>
-  Speeds StepControl<dim>::limiting_speeds() const
-  {
-    Speeds all = speeds;
-    scene.include_obstacles(all, clock.time());
-    return all;
-  }
-
-
-  template <int dim>
-  double StepControl<dim>::stable_step(const TimeStepper &other_clock) const
-  {
-    const Speeds all = limiting_speeds();
-    return other_clock.stable_step(scene.grid.cell_size(), all.wave, all.points);
-  }
-
-
-  template <int dim>
-  StepLimit StepControl<dim>::limit() const
-  {
-    return clock.limit(scene.grid.cell_size(), speeds.wave, speeds.points);
   }
 
 
@@ -145,19 +97,6 @@ namespace scree
 
   template class StepControl<2>;
   template class StepControl<3>;
-
-
-  template <int dim>
-  MeshAdaptation<dim>::MeshAdaptation(Scene<dim> &scene,
-                                      Scheme<dim> &scheme,
-                                      TimerOutput &timer,
-                                      const MPI_Comm communicator)
-      : scene(scene)
-      , scheme(scheme)
-      , timer(timer)
-      , communicator(communicator)
-  {
-  }
 
 
   template <int dim>
@@ -200,79 +139,44 @@ namespace scree
   }
 
 
-  template <int dim>
-  void MeshAdaptation<dim>::summarise(RunFolder &folder) const
-  {
-    if (scene.grid.follows_points())
-      folder.record("fine cells at the end: " +
-                    number_text(Utilities::MPI::sum(double(scene.grid.fine_cells().n_owned()), communicator)) +
-                    "; they followed the points " + std::to_string(n_refinements) + " times, which took " +
-                    number_text(seconds_of(timer, TimerSection::repartition)) + " s");
-  }
-
   template class MeshAdaptation<2>;
   template class MeshAdaptation<3>;
-
-
-  namespace
-  {
-    /// Adds one that left the box through the face of this name.
-    template <int dim>
-    void lose(const Scene<dim> &scene,
-              const std::string &name,
-              const LostPoint<dim> &point,
-              const std::pair<std::string, bool> &face_and_whether_open,
-              const unsigned int velocity_slot,
-              const unsigned int mass_slot,
-              const double time,
-              double &lost_mass,
-              RunBalance<dim> &totals)
-    {
-      const auto &[face, is_open] = face_and_whether_open;
-      AssertThrow(is_open,
-                  ExcMessage("A point of " + name + " left the box through the closed wall '" + face + "' at (" +
-                             number_text(point.location) + ") m, t = " + number_text(time) +
-                             " s. Remedies: a smaller 'Courant number', or 'open' (water: 'drained') in subsection "
-                             "Boundaries."));
-      const double *velocity_of_point = point.properties.data() + velocity_slot;
-      const double mass               = point.properties[mass_slot];
-      const Tensor<1, dim> velocity(make_array_view(velocity_of_point, velocity_of_point + dim));
-      lost_mass += mass;
-      const double inertia = scene.forcing.mass_scaling() * mass;
-      totals.lost_momentum += inertia * velocity;
-      totals.lost_energy +=
-          0.5 * inertia * velocity.norm_square() - mass * (scene.forcing.gravity() * (point.location - Point<dim>()));
-    }
-  } // namespace
 
 
   template <int dim>
   void account_for_lost_points(Scene<dim> &scene, RunBalance<dim> &totals, const double time)
   {
+    const auto lose = [&](const std::string &name,
+                          const std::vector<LostPoint<dim>> &points,
+                          const auto &layout,
+                          const auto &walls,
+                          double &lost_mass) {
+      for (const LostPoint<dim> &point : points)
+        {
+          const auto face_and_whether_open = walls.face_crossed(point.location);
+          AssertThrow(face_and_whether_open.second,
+                      ExcMessage("A point of " + name + " left the box through the closed wall '" +
+                                 face_and_whether_open.first + "' at (" + number_text(point.location) +
+                                 ") m, t = " + number_text(time) +
+                                 " s. Remedies: a smaller 'Courant number', or 'open' (water: 'drained') in subsection "
+                                 "Boundaries."));
+          const double mass             = point.properties[layout.mass];
+          const double inertia          = scene.forcing.mass_scaling() * mass;
+          const Tensor<1, dim> velocity = vector_of<dim>(point.properties.data() + layout.velocity);
+          lost_mass += mass;
+          totals.lost_momentum += inertia * velocity;
+          totals.lost_energy += 0.5 * inertia * velocity.norm_square() -
+                                mass * (scene.forcing.gravity() * (point.location - Point<dim>()));
+        }
+    };
     for (auto &part : scene.water)
-      for (const LostPoint<dim> &point : part.points().lost())
-        lose(scene,
-             "the water",
-             point,
-             part.own_points() != nullptr ? scene.water_walls->face_crossed(point.location)
-                                          : scene.walls.face_crossed(point.location),
-             part.layout.velocity,
-             part.layout.mass,
-             time,
-             totals.lost_water_mass,
-             totals);
+      if (part.own_points() != nullptr)
+        lose("the water", part.points().lost(), part.layout, *scene.water_walls, totals.lost_water_mass);
+      else
+        lose("the water", part.points().lost(), part.layout, scene.walls, totals.lost_water_mass);
     for (auto &body : scene.bodies)
       {
-        for (const LostPoint<dim> &point : body.points.lost())
-          lose(scene,
-               body.name,
-               point,
-               scene.walls.face_crossed(point.location),
-               body.layout.velocity,
-               body.layout.mass,
-               time,
-               totals.lost_mass,
-               totals);
+        lose(body.name, body.points.lost(), body.layout, scene.walls, totals.lost_mass);
         for (const LostPoint<dim> &point : body.points.lost())
           totals.lost_volume += point.properties[body.layout.mass] / body.density;
         totals.n_lost += body.points.lost().size();

@@ -367,26 +367,15 @@ namespace scree
 
   void SeedingParameters::check(const std::string &body, const unsigned int dim) const
   {
-    const std::string where_region = entry_name(body, "Region");
-    const std::string where_speed  = entry_name(body, "Initial velocity");
     require_entry(region != SeedingParameters().region || source.is_region() || is_fed,
                   { body, "Region", region },
                   "the body has no region. Write one, for instance x < 1 && y < 1");
     require_entry(initial_porosity == -1 || initial_porosity >= 0,
                   { body, "Initial porosity", initial_porosity },
                   "write a number from 0 to 0.999, or -1 for what the material law implies.");
-    if (dim == 2)
-      {
-        Region<2>(where_region, region);
-        if (!initial_velocity.empty())
-          parse_expression<2>(where_speed, initial_velocity, 2);
-      }
-    else
-      {
-        Region<3>(where_region, region);
-        if (!initial_velocity.empty())
-          parse_expression<3>(where_speed, initial_velocity, 3);
-      }
+    check_expression(dim, entry_name(body, "Region"), region, 1);
+    if (!initial_velocity.empty())
+      check_expression(dim, entry_name(body, "Initial velocity"), initial_velocity, dim);
   }
 
 
@@ -429,6 +418,67 @@ namespace scree
   }
 
 
+  namespace
+  {
+    std::string remedy_for_nothing(const bool has_ground)
+    {
+      return has_ground ? "the region is empty in the box of subsection Mesh and above the ground of subsection Bed. "
+                          "Move the region, the box or the bed."
+                        : "the region is empty inside the box of subsection Mesh. Move the region or the box.";
+    }
+
+
+    /// Where points are to be.
+    template <int dim>
+    struct Lattice
+    {
+      const Triangulation<dim> &triangulation;
+      const double cell_size;
+      const LevelSet<dim> *ground; // null: none
+      const bool in_water;         // slivers beside the ground stay
+    };
+
+
+    /// Fills a phase with points that have mass, volume and velocity. Collective; throws EntryError if the velocity is
+    /// no number at one of the places.
+    /// @param subsection of the entries
+    /// @param require gets the seeds before they become points
+    template <int dim, typename Phase, typename Entries, typename Require>
+    void fill(const Phase &phase,
+              PointSet<dim> &points,
+              const std::string &subsection,
+              const Entries &entries,
+              const Lattice<dim> &lattice,
+              const PartOfCube<dim> &part_of_cube,
+              const Require &require)
+    {
+      const auto velocity =
+          entries.initial_velocity.empty()
+              ? nullptr
+              : parse_expression<dim>(entry_name(subsection, "Initial velocity"), entries.initial_velocity, dim);
+      const MPI_Comm communicator = communicator_of(lattice.triangulation);
+      std::vector<Seed<dim>> seeds;
+      on_all_ranks(communicator, [&] {
+        seeds = lattice_seeds<dim>(lattice.triangulation, lattice.cell_size, entries.points_per_cell, part_of_cube);
+        for (const Seed<dim> &one : seeds)
+          for (unsigned int a = 0; velocity && a < dim; ++a)
+            velocity->value(one.location, a);
+      });
+      if (lattice.in_water)
+        keep_slivers_at(lattice.ground, seeds);
+      join_slivers(lattice.triangulation, lattice.ground, seeds);
+      require(seeds);
+      insert_points<dim>(
+          points, seeds, lattice.cell_size, communicator, [&](const Seed<dim> &one, std::vector<double> &properties) {
+            for (unsigned int a = 0; velocity && a < dim; ++a)
+              properties[phase.layout.velocity + a] = velocity->value(one.location, a);
+            properties[phase.layout.mass]   = phase.density * one.volume;
+            properties[phase.layout.volume] = one.volume;
+          });
+    }
+  } // namespace
+
+
   template <int dim>
   void seed(SoilBody<dim> &body,
             const SeedingParameters &parameters,
@@ -438,47 +488,23 @@ namespace scree
             const bool in_water)
   {
     const Region<dim> region(entry_name(body.name, "Region"), parameters.expression(), parameters.map);
-    const auto velocity =
-        parameters.initial_velocity.empty()
-            ? nullptr
-            : parse_expression<dim>(entry_name(body.name, "Initial velocity"), parameters.initial_velocity, dim);
-
-    const MPI_Comm communicator = communicator_of(triangulation);
-    std::vector<Seed<dim>> seeds;
-    on_all_ranks(communicator, [&] {
-      seeds = lattice_seeds<dim>(triangulation,
-                                 cell_size,
-                                 parameters.points_per_cell,
-                                 [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
-                                   const auto [volume, centroid] = region.part_of_cube(lower, width, ground);
-                                   return { volume, volume, centroid };
-                                 });
-      require_velocities(velocity.get(), seeds);
+    const auto part_of_cube = [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
+      const auto [volume, centroid] = region.part_of_cube(lower, width, ground);
+      return { volume, volume, centroid };
+    };
+    const Lattice<dim> lattice{ triangulation, cell_size, ground, in_water };
+    fill<dim>(body, body.points, body.name, parameters, lattice, part_of_cube, [&](const auto &seeds) {
+      double volume = 0;
+      for (const Seed<dim> &one : seeds)
+        volume += one.volume;
+      require_entry(Utilities::MPI::sum(volume, communicator_of(triangulation)) > 0 || parameters.is_fed,
+                    { body.name, parameters.place().first, parameters.place().second },
+                    remedy_for_nothing(ground != nullptr));
     });
-    if (in_water)
-      keep_slivers_at(ground, seeds);
-    join_slivers(triangulation, ground, seeds);
-    double volume = 0;
-    for (const Seed<dim> &one : seeds)
-      volume += one.volume;
-    require_entry(Utilities::MPI::sum(volume, communicator) > 0 || parameters.is_fed,
-                  { body.name, parameters.place().first, parameters.place().second },
-                  ground ? "the region is empty in the box of subsection Mesh and above the ground of subsection Bed. "
-                           "Move the region, the box or the bed."
-                         : "the region is empty inside the box of subsection Mesh. Move the region or the box.");
-
-    const auto &layout = body.layout;
-    insert_points<dim>(
-        body.points, seeds, cell_size, communicator, [&](const Seed<dim> &one, std::vector<double> &properties) {
-          if (velocity)
-            for (unsigned int a = 0; a < dim; ++a)
-              properties[layout.velocity + a] = velocity->value(one.location, a);
-          properties[layout.mass]   = body.density * one.volume;
-          properties[layout.volume] = one.volume;
-          for (unsigned int a = 0; a < 3; ++a)
-            properties[layout.left_cauchy_green + a] = 1.;
-        });
+    for_each_point(body.points,
+                   [&](const auto &point) { std::fill_n(point.properties + body.layout.left_cauchy_green, 3, 1.); });
   }
+
 
   template <int dim>
   void set_velocity_gradient(PointSet<dim> &points,
@@ -560,9 +586,7 @@ namespace scree
       require_entry(parameters.is_fed ||
                         std::any_of(filled.begin(), filled.end(), [](const double volume) { return volume > 0; }),
                     { "Water", entry, value },
-                    has_ground ? "the region is empty in the box of subsection Mesh and above the ground of subsection "
-                                 "Bed. Move the region, the box or the bed."
-                               : "the region is empty inside the box of subsection Mesh. Move the region or the box.");
+                    remedy_for_nothing(has_ground));
     }
 
 
@@ -575,11 +599,6 @@ namespace scree
                          const LevelSet<dim> *ground)
     {
       const auto parts = water_parts<dim>(parameters, soil);
-      const auto velocity =
-          parameters.initial_velocity.empty()
-              ? nullptr
-              : parse_expression<dim>(entry_name("Water", "Initial velocity"), parameters.initial_velocity, dim);
-
       std::vector<double> filled(parts.size(), 0.); // of each part, m^3
       const auto part_of_cube = [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
         CubePart<dim> sum{ 0., 0., lower };
@@ -597,30 +616,14 @@ namespace scree
           sum.location = lower + moment / sum.volume;
         return sum;
       };
-      const MPI_Comm communicator = communicator_of(triangulation);
-      std::vector<Seed<dim>> seeds;
-      on_all_ranks(communicator, [&] {
-        seeds = lattice_seeds<dim>(triangulation, cell_size, parameters.points_per_cell, part_of_cube);
-        require_velocities(velocity.get(), seeds);
+      const Lattice<dim> lattice{ triangulation, cell_size, ground, /* in_water */ true };
+      fill<dim>(water, water.points(), "Water", parameters, lattice, part_of_cube, [&](const auto &) {
+        Utilities::MPI::sum(filled, communicator_of(triangulation), filled);
+        require_water(parameters, filled, soil.size(), ground != nullptr);
+        for (unsigned int i = 0; i < parts.size(); ++i)
+          if (parts[i].soil && filled[i] > 0)
+            require_pores(*parts[i].soil);
       });
-      keep_slivers_at(ground, seeds);
-      join_slivers(triangulation, ground, seeds);
-
-      Utilities::MPI::sum(filled, communicator, filled);
-      require_water(parameters, filled, soil.size(), ground != nullptr);
-      for (unsigned int i = 0; i < parts.size(); ++i)
-        if (parts[i].soil && filled[i] > 0)
-          require_pores(*parts[i].soil);
-
-      const auto &layout = water.layout;
-      insert_points<dim>(
-          water.points(), seeds, cell_size, communicator, [&](const Seed<dim> &one, std::vector<double> &properties) {
-            if (velocity)
-              for (unsigned int a = 0; a < dim; ++a)
-                properties[layout.velocity + a] = velocity->value(one.location, a);
-            properties[layout.mass]   = water.density * one.volume;
-            properties[layout.volume] = one.volume;
-          });
     }
 
 

@@ -22,7 +22,7 @@ void run_case(
   scree::Parameters parameters(file);
   scree::Simulation<dim> simulation(parameters, scree::Start::fresh, MPI_COMM_WORLD);
   simulation.run();
-  for (const auto &body : simulation.bodies())
+  for (const auto &body : simulation.state_of_scene().bodies)
     for_each_point(body.points, [&](const auto &point) { inspect(body, point.location, point.properties); });
 }
 

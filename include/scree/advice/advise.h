@@ -22,7 +22,13 @@ namespace scree
     }
 
     /// What is in no part.
-    double rest() const;
+    double rest() const
+    {
+      double sum = seconds;
+      for (const auto &[part, of_part] : parts)
+        sum -= of_part;
+      return std::max(0., sum);
+    }
   };
 
   /// What limits the steps for a while.
@@ -48,7 +54,13 @@ namespace scree
     double program_memory = 1.2e8; ///< of `memory`, what does not grow with points and cells, bytes
 
     /// Of all intervals, s.
-    double duration() const;
+    double duration() const
+    {
+      double sum = 0;
+      for (const SpeedInterval &interval : intervals)
+        sum += interval.duration;
+      return sum;
+    }
   };
 
   /// What a whole run will take.

@@ -68,6 +68,29 @@ namespace scree
     virtual std::unique_ptr<BodyForce<3>> make_3d() const = 0;
   };
 
+  /// A kind of body force that one text gives; empty: the case has none.
+  /// @tparam Force made of the text
+  template <template <int> class Force>
+  class BodyForceText : public BodyForceEntries
+  {
+  public:
+    bool is_set() const override
+    {
+      return !text.empty();
+    }
+    std::unique_ptr<BodyForce<2>> make_2d() const override
+    {
+      return std::make_unique<Force<2>>(text);
+    }
+    std::unique_ptr<BodyForce<3>> make_3d() const override
+    {
+      return std::make_unique<Force<3>>(text);
+    }
+
+  protected:
+    std::string text; ///< value of the entry
+  };
+
   /// The entries of all kinds.
   class BodyForceParameters
   {

@@ -167,22 +167,49 @@ namespace scree
     void set(const std::string &subsection, const std::string &entry, const std::string &value);
 
     /// Where the bodies are, and how porous and heavy.
-    std::vector<SoilRegion> soil_regions() const;
+    std::vector<SoilRegion> soil_regions() const
+    {
+      std::vector<SoilRegion> regions;
+      for (const auto &body : bodies)
+        regions.push_back(
+            { body.name, body.seeding.expression(), body.initial_porosity(), body.bulk_density(), body.seeding.map });
+      return regions;
+    }
 
     /// The bed, and the obstacles that are set.
-    unsigned int n_rigid_surfaces() const;
+    unsigned int n_rigid_surfaces() const
+    {
+      return bed.is_set() + std::count_if(obstacles.begin(), obstacles.end(), [](const ObstacleParameters &obstacle) {
+               return obstacle.surface.is_set();
+             });
+    }
 
     /// Whether the skeleton of the soil is damped: in water, where it may rub against ground or walls.
     bool damps_skeleton() const;
 
     /// The body of this name; null if there is none.
-    const BodyParameters *find_body(const std::string &name) const;
+    const BodyParameters *find_body(const std::string &name) const
+    {
+      const auto body =
+          std::find_if(bodies.begin(), bodies.end(), [&](const BodyParameters &one) { return one.name == name; });
+      return body == bodies.end() ? nullptr : &*body;
+    }
 
     /// Points of what an inflow brings, along each axis of a cell.
-    unsigned int points_per_cell(const InflowParameters &inflow) const;
+    unsigned int points_per_cell(const InflowParameters &inflow) const
+    {
+      const BodyParameters *body = find_body(inflow.body);
+      return body == nullptr ? water.points_per_cell : body->seeding.points_per_cell;
+    }
 
     /// The bodies that stick to each other, and which of them slide. Throws EntryError if contacts do not fit.
-    ContactGroups contact_groups() const;
+    ContactGroups contact_groups() const
+    {
+      std::vector<ContactBody> of_contacts;
+      for (const BodyParameters &body : bodies)
+        of_contacts.push_back({ body.name, body.is_rigid() });
+      return scree::contact_groups(contacts, of_contacts);
+    }
 
     /// Every entry with its value.
     CaseEntries entries() const
@@ -218,7 +245,12 @@ namespace scree
     }
 
     /// Writes the paths of the subsections, one per line: all of them, or those of and below one.
-    void print_sections(const std::string &path, std::ostream &out);
+    void print_sections(const std::string &path, std::ostream &out)
+    {
+      for (const std::string &one : DeclaredNames(handler).subsection_paths())
+        if (path.empty() || (one + '/').rfind(path + '/', 0) == 0)
+          out << one << '\n';
+    }
 
     /// Writes the entries of one subsection as print() does, such as `Soil/Initial state`. Throws InputError if there
     /// is none of that path.
@@ -265,7 +297,15 @@ namespace scree
         square += component * component;
       return std::sqrt(square);
     }
-    double wave_speed() const; // of the stiffest body, m/s; 0 without bodies
+
+    /// Of the stiffest body, m/s; 0 without bodies.
+    double wave_speed() const
+    {
+      double fastest = 0;
+      for (const auto &body : bodies)
+        fastest = std::max(fastest, body.wave_speed());
+      return fastest;
+    }
 
     /// The remedy for a subsection that is not declared but looks like that of a body; empty if it does not.
     std::string unlisted_body(const std::string &subsection) const;

@@ -30,16 +30,28 @@ namespace scree
     };
 
     /// Makes the material; run() does the rest.
-    explicit ElementDriver(const ElementParameters &parameters);
+    explicit ElementDriver(const ElementParameters &parameters)
+        : parameters(parameters)
+        , path(parameters.path())
+        , strain_step(parameters.final_strain / parameters.n_steps)
+        , material(make_material<3>(parameters.material))
+    {
+    }
 
     /// Go along the path. Throws dealii::ExcMessage if the material cannot follow.
     void run();
 
     /// States from the start on.
-    const std::vector<State> &history() const;
+    const std::vector<State> &history() const
+    {
+      return states;
+    }
 
     /// What the updates of the accepted steps reported.
-    const UpdateReport &report() const;
+    const UpdateReport &report() const
+    {
+      return accepted;
+    }
 
     /// All states, a row each; the first row names the columns and their units.
     void write_table(std::ostream &out) const;

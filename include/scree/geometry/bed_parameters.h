@@ -173,10 +173,21 @@ namespace scree
     }
 
     /// Entry and value of the shape; empty if none is given.
-    std::pair<std::string, std::string> geometry() const;
+    std::pair<std::string, std::string> geometry() const
+    {
+      std::pair<std::string, std::string> last;
+      for (const auto &[entry, shape] : rigid_shapes())
+        if (const auto value = shapes.find(entry); value != shapes.end() && !value->second.empty())
+          last = *value;
+      return last;
+    }
 
     /// File of the ground's heights; empty without one.
-    std::string raster() const;
+    std::string raster() const
+    {
+      const auto value = shapes.find("Raster");
+      return value == shapes.end() ? "" : value->second;
+    }
   };
 
   /// The surface; null if there is none. Reads its file; throws EntryError if that is no ground for the box.
@@ -279,7 +290,11 @@ namespace scree
   {
   public:
     /// @param points at least two, x strictly ascending, m; beyond them the ground goes on level
-    explicit Profile(std::vector<dealii::Point<2>> points);
+    explicit Profile(std::vector<dealii::Point<2>> points)
+        : points(std::move(points))
+    {
+      Assert(this->points.size() >= 2, dealii::ExcInternalError());
+    }
 
     /// See LevelSet::is_open().
     bool is_open(const dealii::Point<2> &x) const override;
@@ -314,7 +329,10 @@ namespace scree
   {
   public:
     /// @param raster heights, m, at least 2 x 2
-    explicit HeightSurface(Raster raster);
+    explicit HeightSurface(Raster raster)
+        : raster(std::move(raster))
+    {
+    }
 
     /// See LevelSet::is_open().
     bool is_open(const dealii::Point<3> &x) const override;

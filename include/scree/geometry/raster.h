@@ -136,7 +136,10 @@ namespace scree
   {
   public:
     /// @param areas at least one: the edge and the holes of each, m
-    explicit Outline(std::vector<std::vector<Polygon>> areas);
+    explicit Outline(std::vector<std::vector<Polygon>> areas)
+        : areas(std::move(areas))
+    {
+    }
 
     /// Whether a place, m, is in an area and in none of its holes.
     bool contains(const dealii::Point<2> &x) const;

@@ -65,10 +65,8 @@ namespace scree
       require_entry(gate.empty() || maximum_time > 0,
                     { "Settling", "Gate", gate },
                     "it holds only while the soil settles. Write a \"Maximum time\" above 0, or remove it.");
-      if (!gate.empty() && dim == 2)
-        Region<2>(entry_name("Settling", "Gate"), gate);
-      if (!gate.empty() && dim == 3)
-        Region<3>(entry_name("Settling", "Gate"), gate);
+      if (!gate.empty())
+        check_expression(dim, entry_name("Settling", "Gate"), gate, 1);
     }
   };
 } // namespace scree

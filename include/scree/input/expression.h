@@ -51,6 +51,14 @@ namespace scree
                                                     const unsigned int n_components,
                                                     const bool with_time       = false,
                                                     const std::string &example = "");
+
+  /// Throws EntryError unless the text of a scene of dimension `dim`, 2 or 3, reads, see parse_expression().
+  void check_expression(const unsigned int dim,
+                        const std::string &where,
+                        const std::string &text,
+                        const unsigned int n_components,
+                        const bool with_time       = false,
+                        const std::string &example = "");
 } // namespace scree
 
 #endif

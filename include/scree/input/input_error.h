@@ -5,6 +5,7 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/point.h>
 
+#include <boost/algorithm/string/join.hpp>
 #include <mpi.h>
 
 #include <stdexcept>
@@ -75,17 +76,6 @@ namespace scree
   /// Throws EntryError with the entry_message() unless the value is `possible`.
   void require_entry(const bool possible, const EntryValue &entry, const std::string &remedy);
 
-  /// The same with the parts of the entry.
-  template <typename Value>
-  void require_entry(const bool possible,
-                     const std::string &subsection,
-                     const std::string &entry,
-                     const Value &value,
-                     const std::string &remedy)
-  {
-    require_entry(possible, { subsection, entry, value }, remedy);
-  }
-
   /// Several numbers, separated by commas.
   std::string number_text(const std::vector<double> &values);
 
@@ -94,6 +84,16 @@ namespace scree
   std::string number_text(const dealii::Point<dim> &x)
   {
     return number_text(std::vector<double>(&x[0], &x[0] + dim));
+  }
+
+  /// The names of all of them.
+  template <typename Named>
+  std::vector<std::string> names_of(const Named &all)
+  {
+    std::vector<std::string> names;
+    for (const auto &one : all)
+      names.push_back(one.name);
+    return names;
   }
 
   /// The text between double quotes.

@@ -40,7 +40,13 @@ namespace scree
     std::string suggest_subsection(const std::string &path, const std::string &written) const;
 
     /// The paths of all subsections, in the order of their names.
-    std::vector<std::string> subsection_paths() const;
+    std::vector<std::string> subsection_paths() const
+    {
+      std::vector<std::string> paths;
+      for (const Name &name : subsections)
+        paths.push_back(subsection_path(name.path, name.name));
+      return paths;
+    }
 
   private:
     std::vector<Name> entries, subsections;
@@ -51,8 +57,6 @@ namespace scree
 
   /// What to write instead of a `value` that does not match the pattern of the entry, and what the entry means.
   std::string value_remedy(const DeclaredNames::Name &entry, const std::string &value);
-
-  class DeclaredNames;
 
   /// The statements of a `.prm` file: finds faults before deal.II does, and says where they are and what helps.
   class InputFile
@@ -90,7 +94,12 @@ namespace scree
     }
 
     /// Whether the file has a subsection of that path.
-    bool has_subsection(const std::string &path) const;
+    bool has_subsection(const std::string &path) const
+    {
+      return std::any_of(statements.begin(), statements.end(), [&](const Statement &statement) {
+        return statement.kind == Kind::subsection && subsection_path(statement.path, statement.name) == path;
+      });
+    }
 
     /// The first entry of a subsection with a value that is not the default of `prm`, and the value; empty: there is
     /// none.

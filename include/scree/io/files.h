@@ -144,7 +144,11 @@ namespace scree
   {
   public:
     /// Without a job.
-    explicit BackgroundWriter(const MPI_Comm communicator);
+    explicit BackgroundWriter(const MPI_Comm communicator)
+        : communicator(communicator)
+        , n_ranks(dealii::Utilities::MPI::n_mpi_processes(communicator))
+    {
+    }
 
     /// On a single rank all jobs are written first; faults are ignored.
     ~BackgroundWriter();

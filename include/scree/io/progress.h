@@ -7,6 +7,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <cstdio>
 #include <numeric>
 
 namespace scree
@@ -14,10 +15,10 @@ namespace scree
   /// What a run has found in a check of itself.
   struct CheckResult
   {
-    std::string text;         ///< name and worst value, in words
-    std::string bound;        ///< what a sound run does not exceed, in words; empty: the value is for information
-    bool is_exceeded = false; ///< whether the bound is
-    std::string where;        ///< point, place and time of the worst value; may be empty
+    std::string text;          ///< name and worst value, in words
+    std::string bound;         ///< what a sound run does not exceed, in words; empty: the value is for information
+    bool is_exceeded  = false; ///< whether the bound is
+    std::string where = "";    ///< point, place and time of the worst value; may be empty
 
     /// Saves or loads all of it (Boost).
     template <class Archive>
@@ -27,8 +28,20 @@ namespace scree
     }
   };
 
+  /// Text by a pattern of printf, at most 255 letters.
+  template <typename... Values>
+  std::string formatted(const char *pattern, const Values... values)
+  {
+    char text[256];
+    std::snprintf(text, sizeof text, pattern, values...);
+    return text;
+  }
+
   /// A number with three digits.
-  std::string short_text(const double value);
+  inline std::string short_text(const double value)
+  {
+    return formatted("%.3g", value);
+  }
 
   /// The lines `Checks`: values out of bounds with their bounds and places, then the others.
   std::string verdict(const std::vector<CheckResult> &results);

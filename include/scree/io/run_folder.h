@@ -19,7 +19,15 @@ namespace scree
   public:
     /// Makes the folder and its folder `solution`, and keeps other runs out as long as this lives; what is there stays.
     /// Collective; throws EntryError on all ranks if it is not writable, or if another run writes there.
-    RunFolder(const std::string &path, const bool to_screen, const MPI_Comm communicator);
+    RunFolder(const std::string &path, const bool to_screen, const MPI_Comm communicator)
+        : path(path)
+        , to_screen(to_screen)
+        , writer(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+        , communicator(communicator)
+    {
+      const std::string fault = dealii::Utilities::MPI::broadcast(communicator, writer ? open() : std::string());
+      require_entry(fault.empty(), { "", "Output directory", path }, fault);
+    }
 
     /// Removes log, rows, pictures, maps and checkpoints of an earlier run. Collective.
     void remove_old_results();
@@ -141,14 +149,23 @@ namespace scree
   public:
     /// @param folder is kept by reference
     /// @param name of the first file in the folder
-    TableFile(RunFolder &folder, const std::string &name);
+    TableFile(RunFolder &folder, const std::string &name)
+        : folder(folder)
+        , files{ { name, table_head, table_row, RowFile(folder.file(name)) },
+                 { name + ".csv", csv_head, csv_row, RowFile(folder.file(name + ".csv")) } }
+    {
+    }
 
     /// Adds rows, below the names of the columns if they are the first ones. If the disk does not take them, standard
     /// error has that once, and they are written with the next ones.
     void append(const std::vector<std::string> &columns, const std::vector<std::vector<double>> &rows);
 
     /// Brings the rows to the disk, before a checkpoint counts on them.
-    void sync();
+    void sync()
+    {
+      for (File &file : files)
+        folder.try_to_write(file.name, [&] { file.rows.sync(); });
+    }
 
     /// After the state has been read from a checkpoint: cuts off the rows that were written after it.
     void cut();

@@ -30,7 +30,12 @@ namespace scree
   public:
     /// @param terminate_file the file that stops the run; empty on ranks that do not look for it nor at the clock
     /// @param wall_time_limit from now on, s; 0: none
-    StopRequests(const std::string &terminate_file, const double wall_time_limit);
+    StopRequests(const std::string &terminate_file, const double wall_time_limit)
+        : terminate_file(terminate_file)
+        , wall_time_limit(wall_time_limit)
+        , start(std::chrono::steady_clock::now())
+    {
+    }
 
     /// From here on, signals stop the run by the end of its step, of settling, too; a second SIGINT ends it at once.
     /// Before, they end the program, which has nothing to save yet.

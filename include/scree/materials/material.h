@@ -71,12 +71,13 @@ namespace scree
     double largest_compression  = 0; ///< Compressive principal Kirchhoff stress, or a bound on it, Pa
     double plastic_dissipation  = 0; ///< Sum of V_0 tau : (trial - returned elastic strain), J
 
-    unsigned long long n_updates    = 0; ///< Points
-    unsigned long long n_substeps   = 0; ///< Return maps, at least one a point
-    unsigned long long n_fallbacks  = 0; ///< Newton gave up, the bracketed search found the root
-    unsigned long long n_vertices   = 0; ///< Returned to the vertex of the yield surface that is under stress
-    unsigned long long n_separated  = 0; ///< Pulled apart: no stress, the gap is kept as elastic volume strain
-    unsigned long long n_unresolved = 0; ///< Returned to an admissible state that is not the root; expected to stay 0
+    // Counts; doubles hold them exactly and travel like the rest.
+    double n_updates    = 0; ///< Points
+    double n_substeps   = 0; ///< Return maps, at least one a point
+    double n_fallbacks  = 0; ///< Newton gave up, the bracketed search found the root
+    double n_vertices   = 0; ///< Returned to the vertex of the yield surface that is under stress
+    double n_separated  = 0; ///< Pulled apart: no stress, the gap is kept as elastic volume strain
+    double n_unresolved = 0; ///< Returned to an admissible state that is not the root; expected to stay 0
 
     /// Adds sums and counts of another report, and takes the larger of the largest values.
     void add(const UpdateReport &other)

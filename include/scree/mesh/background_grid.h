@@ -51,7 +51,11 @@ namespace scree
 
     /// Whether cells are larger where no points are: in boxes of many cells. Few take less memory than the program, and
     /// so little time that to follow the points would cost more.
-    bool is_adaptive() const;
+    bool is_adaptive() const
+    {
+      constexpr double few = 2e4;
+      return n_cells() > few;
+    }
 
     /// Cells beside points that are fine, too, at least.
     static constexpr unsigned int margin = 4;

@@ -53,7 +53,12 @@ namespace scree
     };
 
     /// No cells yet.
-    FineCells(const dealii::parallel::distributed::Triangulation<dim> &mesh, const CellsOfBox<dim> &box);
+    FineCells(const dealii::parallel::distributed::Triangulation<dim> &mesh, const CellsOfBox<dim> &box)
+        : triangulation(mesh)
+        , cells_of_box(box)
+        , rank(dealii::Utilities::MPI::this_mpi_process(communicator_of(mesh)))
+    {
+    }
 
     /// Finds them on the current mesh, and sets the CellUse of all cells. Collective.
     void reinit()

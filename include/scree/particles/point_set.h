@@ -144,42 +144,6 @@ namespace scree
   };
 
 
-  /// The points of one set that go from rank to rank.
-  template <int dim>
-  class PointExchange
-  {
-  public:
-    using CellIterator = typename CellTable<dim>::Iterator; ///< iterator over the cells of the mesh
-
-    /// @param triangulation mesh of the points; must live on
-    explicit PointExchange(const dealii::Triangulation<dim> &triangulation)
-        : mesh(triangulation)
-    {
-    }
-
-    /// Adds a point to those that leave for the rank of this ghost cell.
-    void add(const CellIterator &cell, PointRecord<dim> &record)
-    {
-      record.cell = cell->id().template to_binary<dim>();
-      emigrants[cell->subdomain_id()].push_back(record);
-    }
-
-    /// Whether no point of this rank leaves.
-    bool is_empty() const
-    {
-      return emigrants.empty();
-    }
-
-    /// Sends the points that leave and returns those that come. Collective.
-    std::vector<PointRecord<dim>> exchange();
-
-  private:
-    using Record = PointRecord<dim>;
-
-    const dealii::Triangulation<dim> &mesh;
-    std::map<unsigned int, std::vector<Record>> emigrants; // by rank
-  };
-
   /// A point that lay outside the mesh when the set was sorted.
   template <int dim>
   struct LostPoint
@@ -386,8 +350,12 @@ namespace scree
           insert(to, record);
           return;
         }
-      emigrants.add(cell, record);
+      record.cell = cell->id().template to_binary<dim>();
+      emigrants[cell->subdomain_id()].push_back(record);
     }
+
+    /// Sends the points that leave and returns those that come. Collective.
+    std::vector<Record> exchange();
 
     /// Gives the handler a point of the cell with this number in the table; returns its slot.
     unsigned int insert_into(const unsigned int number,
@@ -428,9 +396,9 @@ namespace scree
     boost::signals2::scoped_connection refinement_signal, repartition_signal;
 
     std::vector<Leaver> leavers;
-    std::vector<Record> carried; // the leavers, between two cells
-    PointExchange<dim> emigrants;
-    std::size_t n_moved = 0; // points that changed cells since the last sort()
+    std::vector<Record> carried;                           // the leavers, between two cells
+    std::map<unsigned int, std::vector<Record>> emigrants; // by rank
+    std::size_t n_moved = 0;                               // points that changed cells since the last sort()
     std::vector<LostPoint<dim>> lost_points;
     std::unique_ptr<Lifted> lifted;
     bool at_edge = false;

@@ -21,7 +21,12 @@ namespace scree
     Region(const std::string &where,
            const std::string &expression,
            const std::shared_ptr<const SourceMap> &map       = nullptr,
-           const std::shared_ptr<const LevelSet<dim>> &table = nullptr);
+           const std::shared_ptr<const LevelSet<dim>> &table = nullptr)
+        : function(parse_expression<dim>(where, expression, 1))
+        , map(map)
+        , table(table)
+    {
+    }
 
     /// Throws ValueError if the expression is no number there.
     bool contains(const dealii::Point<dim> &x) const
@@ -53,7 +58,13 @@ namespace scree
 
     /// Corners of the cube, a little inside it: a region may end at its face.
     static dealii::Point<dim> corner(const dealii::Point<dim> &lower, const double width, const unsigned int vertex);
-    static dealii::Point<dim> middle(const dealii::Point<dim> &lower, const double width);
+    static dealii::Point<dim> middle(const dealii::Point<dim> &lower, const double width)
+    {
+      dealii::Point<dim> middle = lower;
+      for (unsigned int a = 0; a < dim; ++a)
+        middle[a] += width / 2.;
+      return middle;
+    }
 
     /// part_of_cube() where maps bound the region: by vertical lines, so that it may be thinner than the cube.
     std::pair<double, dealii::Point<dim>> part_by_lines(const dealii::Point<dim> &lower, const double width) const;
@@ -112,16 +123,6 @@ namespace scree
                                        const double cell_size,
                                        const unsigned int n,
                                        const PartOfCube<dim> &part_of_cube);
-
-  /// Throws ValueError if the velocity of a seed is no number.
-  /// @param velocity null: at rest
-  template <int dim>
-  void require_velocities(const dealii::Function<dim> *velocity, const std::vector<Seed<dim>> &seeds)
-  {
-    for (const Seed<dim> &seed : seeds)
-      for (unsigned int a = 0; velocity && a < dim; ++a)
-        velocity->value(seed.location, a);
-  }
 
   /// Writes a new point's properties, which are 0 before.
   template <int dim>

@@ -207,8 +207,6 @@ namespace scree
     return pressure;
   }
 
-  class Picture;
-
   /// The folder `solution` of a run: `.pvtu` files of points, of water points and of grid cells that hold points, and a
   /// `.pvd` of each.
   template <int dim>
@@ -217,7 +215,14 @@ namespace scree
   public:
     /// Begins with empty lists of files.
     /// @param run_folder path
-    Graphics(const BackgroundGrid<dim> &grid, const OutputParameters &parameters, const std::string &run_folder);
+    Graphics(const BackgroundGrid<dim> &grid, const OutputParameters &parameters, const std::string &run_folder)
+        : grid(grid)
+        , pictures(parameters.graphics_kind())
+        , folder(run_folder + "/solution/")
+        , rank(dealii::Utilities::MPI::this_mpi_process(grid.communicator()))
+        , n_ranks(dealii::Utilities::MPI::n_mpi_processes(grid.communicator()))
+    {
+    }
 
     /// Gathers the state at `time` under the next number; the job writes it, a `.pvd` last.
     /// Fields have the names and units of output_field.h. Points (if there is soil): velocity (m/s), stress (Pa,

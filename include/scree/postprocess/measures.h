@@ -4,6 +4,7 @@
 
 #include <scree/bodies/water_phase.h>
 #include <scree/mesh/discrete_level_set.h>
+#include <scree/step/budget.h>
 
 #include <list>
 
@@ -34,7 +35,13 @@ namespace scree
     }
 
     /// Water volume over pore volume, at most 1; without soil the whole cell, m^3, is pore.
-    double saturation(const double cell_volume) const;
+    double saturation(const double cell_volume) const
+    {
+      const double pores = n_soil_points > 0 ? soil_volume - grain_volume : cell_volume;
+      if (pores <= 0) // soil crushed to its grains: what water there is overflows
+        return water_volume > 0 ? 1. : 0.;
+      return std::min(1., water_volume / pores);
+    }
   };
 
   /// What the cells of this rank hold, by active cell index; other ranks' cells are empty.
@@ -43,12 +50,31 @@ namespace scree
                                               const std::list<WaterPhase<dim>> &water,
                                               const BackgroundGrid<dim> &grid);
 
+  /// Calls `act(body, point)` with this rank's points of the bodies that can move.
+  template <int dim, typename Act>
+  void for_each_moving_point(const std::list<SoilBody<dim>> &bodies, const Act &act)
+  {
+    for (const auto &body : bodies)
+      if (!body.is_rigid)
+        for_each_point(body.points, [&](const auto &point) { act(body, point); });
+  }
+
+  /// The same of the water.
+  template <int dim, typename Act>
+  void for_each_moving_point(const std::list<WaterPhase<dim>> &water, const Act &act)
+  {
+    for (const auto &part : water)
+      for_each_point(part.points(), [&](const auto &point) { act(part, point); });
+  }
+
   /// Sums over all points of all ranks (2D: per m). Momentum and energies are those of soil and water together.
   template <int dim>
   struct PointSums
   {
     double soil_points = 0;          ///< number of points
     double soil_mass   = 0;          ///< kg
+    double moving_mass = 0;          ///< of the soil that can move, kg
+    double water_mass  = 0;          ///< kg
     dealii::Tensor<1, dim> momentum; ///< N s
     double kinetic          = 0;     ///< of velocities and affine fields, J
     double potential        = 0;     ///< of gravity, J
@@ -110,7 +136,14 @@ namespace scree
     }
 
     /// The middle of a column, with 0 as its last coordinate, m.
-    dealii::Point<dim> middle(const std::size_t column) const;
+    dealii::Point<dim> middle(const std::size_t column) const
+    {
+      dealii::Point<dim> x;
+      std::size_t rest = column;
+      for (unsigned int a = 0; a + 1 < dim; ++a, rest /= n[a - 1])
+        x[a] = grid.lower_corner()[a] + (rest % n[a] + 0.5) * grid.cell_size();
+      return x;
+    }
 
     /// The columns around a place and their weights, 1 - |distance|/(cell size) along each axis; what would fall to
     /// columns outside the box counts for those at its edge, so that the weights' sum is 1.
@@ -181,19 +214,18 @@ namespace scree
                                   const std::vector<double> &fractions,
                                   const MPI_Comm communicator);
 
-  /// The coordinates along `axis` below which the given fractions of the mass of all bodies lie, m. Collective.
-  template <int dim>
-  std::vector<double> mass_percentiles(const std::list<SoilBody<dim>> &bodies,
+  /// The x below which the given fractions of the mass of all bodies, or of the water, lie, m. Collective.
+  template <int dim, template <int> class Phase>
+  std::vector<double> mass_percentiles(const std::list<Phase<dim>> &phases,
                                        const BackgroundGrid<dim> &grid,
-                                       const unsigned int axis,
-                                       const std::vector<double> &fractions);
-
-  /// The same of the mass of the water. Collective.
-  template <int dim>
-  std::vector<double> mass_percentiles(const std::list<WaterPhase<dim>> &water,
-                                       const BackgroundGrid<dim> &grid,
-                                       const unsigned int axis,
-                                       const std::vector<double> &fractions);
+                                       const std::vector<double> &fractions)
+  {
+    std::vector<PartOfMass> parts;
+    for_each_moving_point(phases, [&](const auto &phase, const auto &point) {
+      parts.push_back({ point.location[0], point.properties[phase.layout.mass] });
+    });
+    return percentiles(parts, grid.lower_corner()[0], grid.upper_corner()[0], fractions, grid.communicator());
+  }
 
   /// Least distance of a point from the surface, m, see DiscreteLevelSet::distance_of(). Collective.
   template <int dim>

@@ -259,7 +259,11 @@ namespace scree
       std::function<Rows(const ProbedState<dim> &)> rows; // one a table; a single table has all of them
     };
 
-    void add_table(Group &group, const std::string &name);
+    void add_table(Group &group, const std::string &name)
+    {
+      group.tables.push_back(&tables.emplace_back(folder, "probe_" + name));
+    }
+
     void write(const ProbedState<dim> &state, const bool of_pictures)
     {
       for (Group &group : groups)

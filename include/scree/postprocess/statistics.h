@@ -23,19 +23,12 @@ namespace scree
     double lost_water_mass = 0;              ///< kg
     double lost_energy     = 0;              ///< kinetic and potential, J
     dealii::Tensor<1, dim> entered_momentum; ///< of soil and water points of inflows, N s
-    double n_entered           = 0;          ///< points of soil
-    double entered_mass        = 0;          ///< of soil, kg
-    double entered_water_mass  = 0;          ///< kg
-    double entered_energy      = 0;          ///< kinetic, potential and elastic, J
-    double plastic_dissipation = 0;          ///< J
-
-    // Counts; doubles hold them exactly and travel like the rest.
-    double n_lost    = 0, ///< points that left the box
-        n_updates    = 0, ///< updates of stress, points times steps
-        n_substeps   = 0, ///< return maps
-        n_fallbacks  = 0, ///< see UpdateReport::n_fallbacks
-        n_vertices   = 0, ///< see UpdateReport::n_vertices
-        n_unresolved = 0; ///< see UpdateReport::n_unresolved
+    double n_entered          = 0;           ///< points of soil
+    double entered_mass       = 0;           ///< of soil, kg
+    double entered_water_mass = 0;           ///< kg
+    double entered_energy     = 0;           ///< kinetic, potential and elastic, J
+    double n_lost             = 0;           ///< points that left the box; exact, and travels like the rest
+    UpdateReport material;                   ///< dissipation and counts of the stress updates
 
     RunBalance() = default;
 
@@ -45,28 +38,11 @@ namespace scree
       balance.obstacles.resize(n_obstacles);
     }
 
-    /// Adds dissipation and counts of a step's stress updates.
-    void add(const UpdateReport &report)
-    {
-      plastic_dissipation += report.plastic_dissipation;
-      n_updates += report.n_updates;
-      n_substeps += report.n_substeps;
-      n_fallbacks += report.n_fallbacks;
-      n_vertices += report.n_vertices;
-      n_unresolved += report.n_unresolved;
-    }
-
     /// The sums over ranks, on all of them. Collective.
     RunBalance sum_over_ranks(const MPI_Comm communicator) const
     {
       RunBalance total = *this;
-      const NumbersOf numbers(total);
-      std::vector<double> sums; // one message for all
-      for (const double *number : numbers.list)
-        sums.push_back(*number);
-      dealii::Utilities::MPI::sum(sums, communicator, sums);
-      for (std::size_t i = 0; i < sums.size(); ++i)
-        *numbers.list[i] = sums[i];
+      NumbersOf(total).sum_over_ranks(communicator);
       return total;
     }
 
@@ -80,9 +56,9 @@ namespace scree
     /// Energy that known losses have taken, less work and energy that has come in, J.
     double energy_taken() const
     {
-      return plastic_dissipation + balance.wall_dissipation + balance.bed_dissipation + balance.contact_dissipation +
-             balance.drag_dissipation + balance.viscous_dissipation + lost_energy - balance.load_work -
-             balance.correction_work - balance.obstacle_energy() - entered_energy;
+      return material.plastic_dissipation + balance.wall_dissipation + balance.bed_dissipation +
+             balance.contact_dissipation + balance.drag_dissipation + balance.viscous_dissipation + lost_energy -
+             balance.load_work - balance.correction_work - balance.obstacle_energy() - entered_energy;
     }
 
     /// Saves or loads all members (Boost).
@@ -90,9 +66,11 @@ namespace scree
     void serialize(Archive &archive, const unsigned int)
     {
       archive &balance;
-      archive &plastic_dissipation &lost_mass &lost_volume &lost_water_mass &lost_energy &lost_momentum &n_lost;
+      archive &material
+          .plastic_dissipation &lost_mass &lost_volume &lost_water_mass &lost_energy &lost_momentum &n_lost;
       archive &entered_momentum &n_entered &entered_mass &entered_water_mass &entered_energy;
-      archive &n_updates &n_substeps &n_fallbacks &n_vertices &n_unresolved;
+      archive &material.n_updates &material.n_substeps &material.n_fallbacks;
+      archive &material.n_vertices &material.n_unresolved;
     }
   };
 
@@ -118,9 +96,13 @@ namespace scree
     /// Keeps references.
     /// @param gravity m/s^2
     /// @param bed null: the ground is normal to the last axis
-    SoilMotion(const BackgroundGrid<dim> &grid,
-               const dealii::Tensor<1, dim> &gravity,
-               const DiscreteLevelSet<dim> *bed);
+    SoilMotion(const BackgroundGrid<dim> &grid, const dealii::Tensor<1, dim> &gravity, const DiscreteLevelSet<dim> *bed)
+        : grid(grid)
+        , gravity(gravity)
+        , bed(bed)
+        , columns(grid)
+    {
+    }
 
     /// Looks at the soil; the first look is the start. Collective.
     MotionNumbers look(const std::list<SoilBody<dim>> &bodies, const double time);
@@ -370,10 +352,22 @@ namespace scree
     void require_numbers(const double time) const;
 
     /// The whole names of the columns of the last row.
-    std::vector<std::string> columns() const;
+    std::vector<std::string> columns() const
+    {
+      std::vector<std::string> result;
+      for (const auto &[column, value] : last_row)
+        result.push_back(column);
+      return result;
+    }
 
     /// The numbers of the last row.
-    std::vector<double> values() const;
+    std::vector<double> values() const
+    {
+      std::vector<double> result;
+      for (const auto &[column, value] : last_row)
+        result.push_back(value);
+      return result;
+    }
 
     /// Prints the last row, one quantity a line.
     void print_last_row(std::ostream &out) const;

@@ -77,7 +77,18 @@ namespace scree
                Scheme<dim> &scheme,
                StepControl<dim> &control,
                RunFolder &folder,
-               const std::function<void(double)> &advance);
+               const std::function<void(double)> &advance)
+        : parameters(parameters)
+        , scene(scene)
+        , scheme(scheme)
+        , control(control)
+        , folder(folder)
+        , advance(advance)
+        , communicator(scene.grid.communicator())
+        , gravity(scene.forcing.gravity().norm())
+    {
+      scene.mark_start();
+    }
 
     /// With kinetic damping, behind a gate if there is one, as subsection Settling says; logs how it went.
     /// @return checks of the settled state; none if the run was asked to stop

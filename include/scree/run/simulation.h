@@ -125,28 +125,10 @@ namespace scree
       results.writer().finish();
     }
 
-    /// Bodies of soil with the points of this rank.
-    const std::list<SoilBody<dim>> &bodies() const
+    /// What it moves: mesh, bodies of soil and water with the points of this rank, bed.
+    const Scene<dim> &state_of_scene() const
     {
-      return scene.bodies;
-    }
-
-    /// The water; empty in a dry scene.
-    const std::list<WaterPhase<dim>> &water_phases() const
-    {
-      return scene.water;
-    }
-
-    /// Mesh and nodes of the velocity.
-    const BackgroundGrid<dim> &background_grid() const
-    {
-      return scene.grid;
-    }
-
-    /// The bed as the mesh sees it; null without one.
-    const DiscreteLevelSet<dim> *bed() const
-    {
-      return scene.bed.get();
+      return scene;
     }
 
     /// What limits the next step: of the points as they are, and of obstacles.

@@ -18,10 +18,22 @@ namespace scree
                 const TimeStepper &clock,
                 StopRequests &stop,
                 dealii::TimerOutput &timer,
-                const MPI_Comm communicator);
+                const MPI_Comm communicator)
+        : scene(scene)
+        , clock(clock)
+        , stop(stop)
+        , timer(timer)
+        , communicator(communicator)
+    {
+    }
 
     /// Takes the speeds of the points as they are. Collective.
-    void measure_speeds();
+    void measure_speeds()
+    {
+      const Speeds of_rank = scene.speeds();
+      std::vector<double> largest{ of_rank.wave, of_rank.points };
+      agree_on(largest);
+    }
 
     /// Takes the largest over ranks; the first two are speeds of waves and points, for the next step. Also agrees on
     /// whether to stop. Collective.
@@ -34,7 +46,12 @@ namespace scree
     }
 
     /// What limits the next step: of the points as they are, and of obstacles.
-    Speeds limiting_speeds() const;
+    Speeds limiting_speeds() const
+    {
+      Speeds all = speeds;
+      scene.include_obstacles(all, clock.time());
+      return all;
+    }
 
     /// Largest step, s, of the points as they are, by the run's clock.
     double stable_step() const
@@ -43,10 +60,17 @@ namespace scree
     }
 
     /// The same by another clock.
-    double stable_step(const TimeStepper &other_clock) const;
+    double stable_step(const TimeStepper &other_clock) const
+    {
+      const Speeds all = limiting_speeds();
+      return other_clock.stable_step(scene.grid.cell_size(), all.wave, all.points);
+    }
 
     /// What makes it that large.
-    StepLimit limit() const;
+    StepLimit limit() const
+    {
+      return clock.limit(scene.grid.cell_size(), speeds.wave, speeds.points);
+    }
 
     /// See TimeStepper::part_left().
     double part_left() const;
@@ -87,7 +111,13 @@ namespace scree
   {
   public:
     /// Scene, scheme and timer are kept by reference.
-    MeshAdaptation(Scene<dim> &scene, Scheme<dim> &scheme, dealii::TimerOutput &timer, const MPI_Comm communicator);
+    MeshAdaptation(Scene<dim> &scene, Scheme<dim> &scheme, dealii::TimerOutput &timer, const MPI_Comm communicator)
+        : scene(scene)
+        , scheme(scheme)
+        , timer(timer)
+        , communicator(communicator)
+    {
+    }
 
     /// Makes cells fine around the points as they are, and where they go to, once a point has come to the edge of the
     /// fine cells. Collective.
@@ -107,7 +137,15 @@ namespace scree
     }
 
     /// Logs how often cells were made fine, and how many there are. Collective.
-    void summarise(RunFolder &folder) const;
+    void summarise(RunFolder &folder) const
+    {
+      if (scene.grid.follows_points())
+        folder.record(
+            "fine cells at the end: " +
+            number_text(dealii::Utilities::MPI::sum(double(scene.grid.fine_cells().n_owned()), communicator)) +
+            "; they followed the points " + std::to_string(n_refinements) + " times, which took " +
+            number_text(seconds_of(timer, TimerSection::repartition)) + " s");
+    }
 
   private:
     /// The blocks that are to be fine, of all ranks: around the points and on their way. Collective.

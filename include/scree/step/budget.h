@@ -4,6 +4,8 @@
 
 #include <scree/boundary/wall_impulses.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <boost/serialization/vector.hpp>
 
 #include <vector>
@@ -20,6 +22,23 @@ namespace scree
     explicit NumbersOf(T &object)
     {
       object.serialize(*this, 0);
+    }
+
+    /// Lists these.
+    NumbersOf(const std::initializer_list<double *> &numbers)
+        : list(numbers)
+    {
+    }
+
+    /// Replaces each number by its sum over ranks. Collective.
+    void sum_over_ranks(const MPI_Comm communicator) const
+    {
+      std::vector<double> sums; // one message for all
+      for (const double *number : list)
+        sums.push_back(*number);
+      dealii::Utilities::MPI::sum(sums, communicator, sums);
+      for (std::size_t i = 0; i < sums.size(); ++i)
+        *list[i] = sums[i];
     }
 
     /// Appends the numbers of an object.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/boundary/inflow/inflow.h>
+#include <scree/tensor/vector.h>
 
 #include <deal.II/base/geometry_info.h>
 
@@ -9,16 +10,6 @@
 namespace scree
 {
   using namespace dealii;
-
-  namespace
-  {
-    template <int dim>
-    Tensor<1, dim> vector_from(const std::vector<double> &components)
-    {
-      return Tensor<1, dim>(make_array_view(components.begin(), components.end()));
-    }
-  } // namespace
-
 
   template <int dim>
   Inflow<dim>::Inflow(const InflowParameters &parameters,
@@ -42,7 +33,7 @@ namespace scree
       , face(parameters.face_number(dim))
       , section(is_at_wall ? (face % 2 == 0 ? grid.lower_corner() : grid.upper_corner())[face / 2]
                            : number_of(parameters.section))
-      , direction(vector_from<dim>(parameters.unit_direction(dim)))
+      , direction(vector_of<dim>(parameters.unit_direction(dim).data()))
   {
     normal[face / 2] = face % 2 == 0 ? 1. : -1.;
     find_places(parameters, ground);

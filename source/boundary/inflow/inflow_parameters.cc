@@ -79,11 +79,7 @@ namespace scree
                   "there is no such wall in 2D. Write Left, Right, Bottom or Top.");
     check_section(grid, dim, points_per_cell);
     check_direction(dim);
-    const std::string where = entry_name(subsection, "Region");
-    if (dim == 2)
-      Region<2>(where, region);
-    else
-      Region<3>(where, region);
+    check_expression(dim, entry_name(subsection, "Region"), region, 1);
     require_entry(speed.empty() != hydrograph.empty(),
                   { subsection, speed.empty() ? "Speed" : "Hydrograph", speed.empty() ? "" : hydrograph },
                   speed.empty() ? "write how fast it enters, such as 1.5, or name a file as \"Hydrograph\"."

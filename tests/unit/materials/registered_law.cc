@@ -27,7 +27,7 @@ struct ModuliParameters : LawEntries
   }
   void check(const std::string &subsection) const override
   {
-    require_entry(bulk_modulus > 0, subsection, "Bulk modulus", bulk_modulus, "a positive modulus is needed.");
+    require_entry(bulk_modulus > 0, { subsection, "Bulk modulus", bulk_modulus }, "a positive modulus is needed.");
   }
   LawEntry modulus() const override
   {

@@ -49,7 +49,7 @@ void test(const std::string &name,
   const Simulation<dim> simulation(parameters, Start::fresh, MPI_COMM_WORLD);
 
   double largest_weight = 0, error = 0;
-  for (const auto &body : simulation.bodies())
+  for (const auto &body : simulation.state_of_scene().bodies)
     for_each_point(body.points, [&](const auto &point) {
       const double *stress = point.properties + body.layout.stress;
       const double weight  = weight_above(point.location);

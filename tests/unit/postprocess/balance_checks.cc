@@ -66,19 +66,19 @@ void run()
   std::cout << "in motion: 20 J are missing\n" << verdict(checks.results()) << '\n';
 
   set_velocity(scene, 0.);
-  totals.balance.wall_impulse = -totals.balance.body_impulse;
-  totals.plastic_dissipation  = 79.5;
+  totals.balance.wall_impulse         = -totals.balance.body_impulse;
+  totals.material.plastic_dissipation = 79.5;
   checks.look(scene.bodies, scene.water, totals, 0.);
-  totals.plastic_dissipation = 81.5; // 2 J more than there were
+  totals.material.plastic_dissipation = 81.5; // 2 J more than there were
   checks.look(scene.bodies, scene.water, totals, 0.);
   std::cout << "stopped, with a gain of 2 J\n" << verdict(checks.results()) << '\n';
 
   totals.balance.bed_dissipation = -3.; // turned into heat elsewhere: the numerical dissipation does not fall
-  totals.plastic_dissipation += 3.;
+  totals.material.plastic_dissipation += 3.;
   checks.look(scene.bodies, scene.water, totals, 0.);
   std::cout << "a bed that gives 3 J\n" << verdict(checks.results()) << '\n';
   totals.balance.bed_dissipation = 0.;
-  totals.plastic_dissipation -= 3.;
+  totals.material.plastic_dissipation -= 3.;
 
   totals.lost_mass = 1.6;
   totals.balance.wall_impulse[0] += 0.16;

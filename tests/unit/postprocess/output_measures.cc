@@ -89,7 +89,7 @@ void test_percentiles()
 {
   const Scene<dim> scene({ "x > 0.1 && x < 0.5 && y < 0.3", "x > 0.5 && x < 0.8 && y < 0.3" });
   constexpr double half_width = 0.025;
-  const auto percentiles      = mass_percentiles(scene.bodies, scene.grid, 0, { 0.005, 0.33, 0.5, 0.9, 0.99, 1. });
+  const auto percentiles      = mass_percentiles(scene.bodies, scene.grid, { 0.005, 0.33, 0.5, 0.9, 0.99, 1. });
   const std::vector<double> expected{ 0.1 + 0.7 * 0.005, 0.1 + 0.7 * 0.33, 0.1 + 0.7 * 0.5,
                                       0.1 + 0.7 * 0.9,   0.1 + 0.7 * 0.99, 0.8 };
   for (unsigned int i = 0; i < expected.size(); ++i)
@@ -113,7 +113,7 @@ void test_tie()
   std::cout << dim << "D percentiles at a tie:";
   for (unsigned int tenths = 1; tenths < 10; ++tenths)
     {
-      const double percentile = mass_percentiles(scene.bodies, scene.grid, 0, { 0.1 * tenths })[0];
+      const double percentile = mass_percentiles(scene.bodies, scene.grid, { 0.1 * tenths })[0];
       AssertThrow(std::abs(percentile - (0.05 * tenths - 0.025)) < 1e-9,
                   ExcMessage("The tie at " + Utilities::to_string(0.1 * tenths) + " went to " +
                              Utilities::to_string(percentile)));
@@ -194,7 +194,7 @@ void test_water()
   // Two columns of cells hold all grains and 0.8 of water.
   const double error = 0.8 * 0.2 / (0.4 + 0.8 * 0.4);
   expect(wet.volume_error, error, 1e-10, "volume error");
-  expect(mass_percentiles(scene.water, scene.grid, 0, { 0.5 })[0], 0.375, 1e-9, "middle of the water");
+  expect(mass_percentiles(scene.water, scene.grid, { 0.5 })[0], 0.375, 1e-9, "middle of the water");
 
   // The second time the free cells overflow, too.
   scene.add_water("x > 0.2 && x < 0.6 && y < 0.3", 1.2);
@@ -224,7 +224,7 @@ void test_pressure_oscillation()
   });
   expect(pressure_oscillation(scene.water, scene.grid), 1., 1e-10, "oscillation of a checkerboard");
   expect(stress_oscillation(scene.bodies, scene.grid), 0., 0., "oscillation of no soil");
-  expect(mass_percentiles(scene.bodies, scene.grid, 0, { 0.9 })[0], -0.3, 1e-9, "front of no soil");
+  expect(mass_percentiles(scene.bodies, scene.grid, { 0.9 })[0], -0.3, 1e-9, "front of no soil");
   std::cout << dim << "D oscillation of p: OK" << std::endl;
 }
 

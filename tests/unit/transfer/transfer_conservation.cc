@@ -38,7 +38,7 @@ template <int dim>
 Momenta<dim> momenta(const Simulation<dim> &simulation, const double spin)
 {
   std::vector<double> sums(dim + 5, 0.);
-  for (const auto &body : simulation.bodies())
+  for (const auto &body : simulation.state_of_scene().bodies)
     for_each_point(body.points, [&](const auto &point) {
       const double *properties = point.properties;
       const double mass        = properties[body.layout.mass];
