@@ -121,23 +121,11 @@ namespace scree
 
 
   template <int dim>
-  double TwoPhaseMomentum<dim>::pressed_mass(const PorePressure<dim> &pressure,
-                                             const unsigned int node,
-                                             const double mass) const
-  {
-    const double least = closures::least_inertia * water_density * pressure.filled_volume(node);
-    return mass > 0. ? std::max(mass, least) : 0.;
-  }
-
-
-  template <int dim>
-  DragBlock<dim> TwoPhaseMomentum<dim>::pressed_block_at(const MixtureNodes<dim> &nodes,
-                                                         const PorePressure<dim> &pressure,
-                                                         const unsigned int node) const
+  DragBlock<dim> TwoPhaseMomentum<dim>::pressed_block_at(const MixtureNodes<dim> &nodes, const unsigned int node) const
   {
     DragBlock<dim> pair = drag_block_at(nodes, node);
-    pair.soil_mass      = pressed_mass(pressure, node, pair.soil_mass);
-    pair.water_mass     = pressed_mass(pressure, node, pair.water_mass);
+    pair.soil_mass *= nodes.pores[node][PoreField<dim>::pressed_soil];
+    pair.water_mass *= nodes.pores[node][PoreField<dim>::pressed_water];
     return pair;
   }
 
@@ -212,10 +200,7 @@ namespace scree
       {
         if (is_empty(nodes, node))
           continue;
-        const DragBlock<dim> pair = pressed_block_at(nodes, pressure, node);
-        double *pore              = nodes.pores[node];
-        pore[PoreField<dim>::pressed_soil] = pair.soil_mass > 0. ? pair.soil_mass / nodes.soil[node][Field<dim>::mass] : 1.;
-        pore[PoreField<dim>::pressed_water] = pair.water_mass > 0. ? pair.water_mass / nodes.water[node][Field<dim>::mass] : 1.;
+        const DragBlock<dim> pair = pressed_block_at(nodes, node);
         pressed.all.push_back({ node,
                                 1. - nodes.pores[node][PoreField<dim>::grain_fraction],
                                 drag_mobility(pair.soil_mass, pair.water_mass, pair.drag),
@@ -240,12 +225,15 @@ namespace scree
           continue;
         const PressedNode<dim> pressed{ node, 1. - nodes.pores[node][PoreField<dim>::grain_fraction], {}, 0 };
         const SoilAndWater<dim> of_phases = PressedNodes<dim>::forces(pressed, impulses[node]);
-        const auto add = [&](double *values, const Tensor<1, dim> &impulse) { // the motion is that of the pressed mass
-          if (const double mass = values[Field<dim>::mass]; mass > 0.)
-            add_to(values + Field<dim>::force, mass / pressed_mass(pressure, node, mass) / time_step * impulse);
+        const double least                = closures::least_inertia * water_density * pressure.filled_volume(node);
+        const auto add                    = [&](double *values, double &share, const Tensor<1, dim> &impulse) {
+          const double mass = values[Field<dim>::mass];
+          share             = mass > 0. ? std::max(least / mass, 1.) : 1.;
+          if (mass > 0.)
+            add_to(values + Field<dim>::force, 1. / (share * time_step) * impulse);
         };
-        add(nodes.soil[node], of_phases.soil);
-        add(nodes.water[node], of_phases.water);
+        add(nodes.soil[node], nodes.pores[node][PoreField<dim>::pressed_soil], of_phases.soil);
+        add(nodes.water[node], nodes.pores[node][PoreField<dim>::pressed_water], of_phases.water);
       }
   }
 
@@ -412,7 +400,7 @@ namespace scree
         const unsigned int node = pressed.node;
         double *of_soil = nodes.soil[node], *of_water = nodes.water[node];
         const SoilAndWater<dim> impulses = PressedNodes<dim>::forces(pressed, of_flow[node]);
-        const DragBlock<dim> pair        = pressed_block_at(nodes, pressure, node);
+        const DragBlock<dim> pair        = pressed_block_at(nodes, node);
         SoilAndWater<dim> change         = pair.solve(impulses);
         const SoilAndWater<dim> before{ velocity_at_start<dim>(of_soil), velocity_at_start<dim>(of_water) };
         const Tensor<1, dim> soil_predicted = vector_of<dim>(of_soil + Field<dim>::velocity);

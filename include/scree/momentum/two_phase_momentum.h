@@ -31,7 +31,9 @@ namespace scree
     /// @param excess see WaterTransfer::to_grid(), summed over ranks as `nodes`
     void find_flux_inertia(const MixtureNodes<dim> &nodes, const NodalField<dim> &excess, const double time_step);
 
-    /// Adds the force of the old pressure to the sums of soil and water.
+    /// Adds the force of the old pressure to the sums of soil and water, and finds what they count as where the
+    /// pressure moves them (PoreField): at least a part of the water that would fill what B integrates over
+    /// (closures::least_inertia).
     void add_pressure_forces(const MixtureNodes<dim> &nodes, PorePressure<dim> &pressure, const double time_step) const;
 
     /// The nodes as the pressure sees them, after predict().
@@ -60,13 +62,8 @@ namespace scree
     static void add(const MixtureNodes<dim> &nodes, const unsigned int node, SoilAndWater<dim> change);
 
   private:
-    /// Mass of a phase as the pressure moves it at an owned node, kg: at least a part of the water that would fill what
-    /// B integrates over (closures::least_inertia); 0 of an absent phase.
-    double pressed_mass(const PorePressure<dim> &pressure, const unsigned int node, const double mass) const;
-
     /// Soil and water at an owned node, as the pressure moves them.
-    DragBlock<dim>
-    pressed_block_at(const MixtureNodes<dim> &nodes, const PorePressure<dim> &pressure, const unsigned int node) const;
+    DragBlock<dim> pressed_block_at(const MixtureNodes<dim> &nodes, const unsigned int node) const;
 
     /// Of what holds soil and water at the node, m/s.
     SoilAndWater<dim> velocity_of_walls(const unsigned int node) const;

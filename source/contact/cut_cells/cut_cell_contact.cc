@@ -288,7 +288,11 @@ namespace scree
         const Tensor<1, dim> of_weight = time_step * row.traction;
         const auto weights             = [&](const unsigned int i) -> std::array<double, 2> {
           // Where both phases are light, a part of the force is of no mass.
-          return { { rows.weight(k, i), rows.weight(k, i) / nodes.pores[of_cell[i]][of_soil ? PoreField<dim>::pressed_soil : PoreField<dim>::pressed_water] } };
+          return {
+            { rows.weight(k, i),
+              rows.weight(k, i) /
+                  nodes.pores[of_cell[i]][of_soil ? PoreField<dim>::pressed_soil : PoreField<dim>::pressed_water] }
+          };
         };
         (of_soil ? tractions.soil : tractions.water) = row.traction;
         balance.pressure_impulse += // The corrector has booked it there.
