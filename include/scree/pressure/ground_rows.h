@@ -21,9 +21,10 @@ namespace scree
   template <int dim>
   struct FacetTractions
   {
-    std::uint64_t cell = 0;             ///< FineCells::Cell::number
-    unsigned int part  = 0;             ///< of RigidBoundary
-    dealii::Tensor<1, dim> soil, water; ///< Pa, out of the open
+    std::uint64_t cell = 0;       ///< FineCells::Cell::number
+    unsigned int part  = 0;       ///< of RigidBoundary
+    dealii::Tensor<1, dim> soil;  ///< of the soil, Pa, out of the open
+    dealii::Tensor<1, dim> water; ///< of the water, Pa
 
     /// For the state of a run.
     template <class Archive>
@@ -81,6 +82,7 @@ namespace scree
   public:
     using Vectors = std::vector<dealii::Tensor<1, dim>>; ///< a vector a row
 
+    /// No rows; keeps a reference to the grid.
     explicit GroundRows(const BackgroundGrid<dim> &grid)
         : grid(grid)
     {

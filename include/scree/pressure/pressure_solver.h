@@ -65,7 +65,8 @@ namespace scree
     /// What solves took.
     struct Result
     {
-      SolveReport first, further;    ///< the first solve; those with what then was found held
+      SolveReport first;             ///< the first solve
+      SolveReport further;           ///< those with what then was found held, or slipping
       unsigned int n_cavitating = 0; ///< owned vertices that are held at the least pressure
     };
 

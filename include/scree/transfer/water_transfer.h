@@ -43,8 +43,11 @@ namespace scree
     /// slip between soil and water, sum m_p phi_i (n_i/n_p)^2 - m_i, kg
     static constexpr unsigned int coupling = 3;
 
-    /// What soil and water count as where the pressure moves them, over their mass: 1, or more where they are light, -
-    static constexpr unsigned int pressed_soil = 4, pressed_water = 5;
+    /// What the soil counts as where the pressure moves it, over its mass: 1, or more where it is light, -
+    static constexpr unsigned int pressed_soil = 4;
+
+    /// The same of the water.
+    static constexpr unsigned int pressed_water = 5;
 
     /// Makes room on the nodes of the grid, which must live on.
     explicit PoreField(const BackgroundGrid<dim> &grid)

@@ -57,7 +57,7 @@ void test()
           for (unsigned int i = 0; i < dim; ++i)
             for (unsigned int j = 0; j < dim; ++j)
               {
-                turned[i][j] = before[i][j];
+                turned[i][j]                                                   = before[i][j];
                 motion.deformation_increment[(i * dim + j) * motion.pitch + p] = turn[i][j];
               }
           turned     = turn * turned * transpose(turn);
