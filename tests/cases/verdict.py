@@ -145,6 +145,15 @@ def volume():
     check(not re.search(r"in contact \S+ \(bound", steady.parts["Checks"].replace("\n", " ")), steady.parts["Checks"])
 
 
+def shrinkage():
+    """A layer far too soft for its weight is compressed most at its base; the check says how far, and names a point there."""
+    soft = "set End time = 0.4\nsubsection Soil\n  subsection Linear elastic\n    set Young's modulus = 1e4\n  end\nend\n"
+    checks = re.sub(r"\s+", " ", layer("soft", law="linear elastic", start="none", entries=soft).parts["Checks"])
+    found = re.match(r"out of bounds: smallest V/V_0 (0\.[0-5]\d*) \(bound 0\.6\)[^:]* worst: Soil, point \d+ at \(\S+, (\S+)\) m, t = \S+ s: "
+                     r"it is compressed to V/V_0 = (\S+)", checks)
+    check(found and found[1] == found[3] and float(found[2]) < 0.1, checks)
+
+
 # A block on a block, at 24.5 degrees with a contact friction of 25: it should hold.
 SLIP = BOX.format(dim=2, lower="0, 0", gravity="4.06814071046, -8.9267200673", end=0.6, corner="3, 0.8", cell=0.05, rows=0.1) + """
 set Body force = -4.06814071046*max(0, 1 - t/0.2); 8.9267200673*max(0, 1 - t/0.2)
@@ -182,4 +191,4 @@ def creep():
     check(0.01 < row["Speed 99 % (m/s)"] < 1 and row["Moving part (-)"] > 0.2, f"{row['Speed 99 % (m/s)']} m/s, {row['Moving part (-)']} of the mass")
 
 
-{"slide": slide, "creep": creep, "rest": rest, "stress": stress, "volume": volume}[sys.argv[3]]()
+{"slide": slide, "creep": creep, "rest": rest, "stress": stress, "volume": volume, "shrinkage": shrinkage}[sys.argv[3]]()
