@@ -2,7 +2,8 @@
 """compare_statistics.py FILE FILE TOLERANCE... [THICKNESS]: are all rows of two files `statistics` equal, and of two others?
 
 Numbers differ by at most TOLERANCE times the largest number of their column. Columns that are differences of large numbers
-have their scale: the energies and momenta that they balance, the largest p, 1 for errors. How the pressure was solved (iterations,
+have their scale: the energies and momenta that they balance, the largest p, 1 for errors, and for an oscillation over a mean the
+condition number of the ratio, as the mean is a difference of what oscillates. How the pressure was solved (iterations,
 preconditioners) is not compared, only the result. With THICKNESS the second file is of a run in 3D, one cell
 thick: what is per metre in 2D is divided by it, its axis z is y there, and its points are only to be a multiple.
 """
@@ -47,6 +48,9 @@ def largest_difference(first, second, counts):
     if "Largest p (Pa)" in first:
         scales["Smallest p (Pa)"] = max(first["Largest p (Pa)"])
         scales["Water outside soil (kg)"] = max(first["Water mass (kg)"])
+    for column in ("Stress oscillation (-)", "p oscillation (-)"):
+        ratio = max(first.get(column, [0.0]))
+        scales[column] = ratio * (1 + ratio)
     worst = (0.0, "")
     for column, values in first.items():
         if column in counts or column in SOLVER:
