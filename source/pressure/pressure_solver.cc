@@ -429,7 +429,7 @@ namespace scree
                                               rows->end(),
                                               [](const auto &row) { return row.is_unilateral && row.friction > 0.; }),
                                   grid.communicator());
-    constexpr unsigned int most_passes = 4; // between pressure and friction
+    constexpr unsigned int most_passes = 2; // between pressure and friction
     if (rubs)
       {
         find_residual();
