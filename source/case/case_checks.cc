@@ -85,6 +85,16 @@ namespace scree
     }
 
 
+    void check_skeleton_damping(const Parameters &parameters)
+    {
+      const double damping = parameters.stabilisation.skeleton_damping;
+      require_entry(damping == 0. || damping == StabilisationParameters().skeleton_damping ||
+                        parameters.damps_skeleton(),
+                    { "Stabilisation", "Skeleton damping", damping },
+                    "this entry has no effect without water, or where ground and walls have no friction. Remove it.");
+    }
+
+
     void check_contacts(const Parameters &parameters)
     {
       parameters.contact_groups();
@@ -193,6 +203,7 @@ namespace scree
     check_contacts(parameters);
     check_mass_scaling(parameters);
     check_points_of_water(parameters);
+    check_skeleton_damping(parameters);
     require_entry(parameters.bed.turbulent_friction == 0. || !parameters.has_water,
                   { "Bed", "Turbulent friction", parameters.bed.turbulent_friction },
                   "it acts on dry soil only. Remove it, or subsection Water.");

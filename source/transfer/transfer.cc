@@ -28,17 +28,20 @@ namespace scree
         for_each_record_with_shape<n>(
             cell, cell.stride, open, grid.cell_size(), [&](const auto &point, const auto &shape) {
               const double *properties = point.properties;
-              std::array<double, n_symmetric_components<dim>> stress;
-              std::copy_n(properties + layout.stress, stress.size(), stress.begin());
+              const double *stress     = properties + layout.stress;
+              [[maybe_unused]] std::array<double, n_symmetric_components<dim>> damped;
               if constexpr (is_damped)
-                for (unsigned int c = 0; c < stress.size(); ++c)
-                  stress[c] += properties[layout.damping + c];
+                {
+                  for (unsigned int c = 0; c < damped.size(); ++c)
+                    damped[c] = stress[c] + properties[layout.damping + c];
+                  stress = damped.data();
+                }
               sums.template add<method>(shape,
                                         properties[layout.mass],
                                         properties + layout.velocity,
                                         properties + layout.affine,
                                         properties[layout.volume],
-                                        matrix_of_components<dim>(stress.data()));
+                                        matrix_of_components<dim>(stress));
             });
         field.activate_cell(cell.cell);
         sums.scatter(grid.nodes(cell.cell), field);
@@ -49,9 +52,9 @@ namespace scree
   template <int dim>
   void Transfer<dim>::to_grid(const SoilBody<dim> &body, NodalField<dim> &field) const
   {
-    const auto choose_damping = [&](auto n, auto method) {
-      return body.layout.has_damping ? add_points<n, method, true>(body, field)
-                                     : add_points<n, method, false>(body, field);
+    const auto choose_damping = [&](auto n, auto carried) {
+      return body.layout.has_damping ? add_points<n, carried, true>(body, field)
+                                     : add_points<n, carried, false>(body, field);
     };
     const auto dispatch = [&](auto n) {
       if (carries_affine(method)) // TPIC and AFLIP differ on the way back only.
