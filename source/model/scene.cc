@@ -106,8 +106,7 @@ namespace scree
     for (const ObstacleParameters &obstacle : parameters.obstacles)
       if (obstacle.surface.is_set())
         obstacles.emplace_back(obstacle, parameters.grid, grid);
-    if (parameters.has_water)
-      join_ground();
+    join_ground();
     for (const InflowParameters &inflow : parameters.inflows)
       {
         const BodyParameters *body = parameters.find_body(inflow.body);
@@ -128,38 +127,30 @@ namespace scree
   template <int dim>
   void Scene<dim>::join_ground()
   {
-    std::vector<const LevelSet<dim> *> all, at_rest;
-    std::vector<GroundPart<dim>> parts;
+    std::vector<const LevelSet<dim> *> all;
+    std::vector<GroundPart<dim>> parts; // Each by itself: where two meet, each has its own normal and friction.
     if (ground)
-      all.push_back(ground.get());
-    at_rest = all;
+      {
+        all.push_back(ground.get());
+        parts.push_back({ bed.get() });
+      }
     for (const Obstacle<dim> &obstacle : obstacles)
       {
         all.push_back(&obstacle.shape());
-        if (obstacle.is_moving)
-          parts.push_back({ &obstacle.surface, &obstacle.velocity() });
-        else
-          at_rest.push_back(&obstacle.shape());
+        parts.push_back({ &obstacle.surface, obstacle.is_moving ? &obstacle.velocity() : nullptr });
       }
     if (all.empty())
       return;
     if (!obstacles.empty())
       union_level_set = std::make_unique<JoinedSurface<dim>>(all);
-    if (at_rest.size() > (ground ? 1 : 0))
-      {
-        joined_at_rest = std::make_unique<JoinedSurface<dim>>(at_rest);
-        joined_samples = std::make_unique<DiscreteLevelSet<dim>>(grid, *joined_at_rest);
-      }
-    if (!at_rest.empty())
-      parts.insert(parts.begin(), { joined_samples ? joined_samples.get() : bed.get() });
-    wet_ground = std::make_unique<RigidBoundary<dim>>(parts);
+    rigid_ground = std::make_unique<RigidBoundary<dim>>(parts);
     // Between a half and the whole of the points' spacing; doc/developer/development_log.md, "Moving obstacles in
     // water", has what others do.
     constexpr double thinnest = 0.75;
-    const unsigned int points = parameters.water.point_sets_kind() == PointSets::double_point
+    const unsigned int points = parameters.has_water && parameters.water.point_sets_kind() == PointSets::double_point
                                     ? parameters.water.points_per_cell
                                     : points_per_cell().first;
-    cut_cells                 = std::make_unique<CutCells<dim>>(grid, *wet_ground, thinnest / points);
+    cut_cells                 = std::make_unique<CutCells<dim>>(grid, *rigid_ground, parameters.has_water ? thinnest / points : 0.);
   }
 
 
@@ -177,7 +168,6 @@ namespace scree
                                          affine,
                                          water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0,
                                          parameters.probes.displacement || parameters.settling.maximum_time > 0.,
-                                         parameters.has_water ? 0 : parameters.n_rigid_surfaces(),
                                          parameters.damps_skeleton());
         bodies.emplace_back(body.name,
                             body.bulk_density(),
@@ -219,7 +209,7 @@ namespace scree
                             parameters.pressure,
                             water_walls.get(),
                             inflows,
-                            wet_ground.get(),
+                            rigid_ground.get(),
                             cut_cells.get(),
                             points_per_cell().first };
     if (parameters.has_water)
@@ -251,8 +241,6 @@ namespace scree
       bed->reinit();
     for (Obstacle<dim> &obstacle : obstacles)
       obstacle.reinit();
-    if (joined_samples)
-      joined_samples->reinit();
     if (cut_cells)
       cut_cells->reinit();
     for (Inflow<dim> &inflow : inflows)
@@ -542,8 +530,7 @@ namespace scree
   {
     SoilBody<dim> &body =
         *std::find_if(bodies.begin(), bodies.end(), [&](const SoilBody<dim> &one) { return one.name == inflow.body; });
-    const auto surfaces = parameters.has_water ? std::vector<RigidSurface<dim>>() : rigid_surfaces();
-    const auto &layout  = body.layout;
+    const auto &layout = body.layout;
     std::unique_ptr<PlaceVariableValues<dim>> of_place; // what the law has from the place; null: nothing
     if (const PlaceVariable variable = body.material->place_variable(); !variable.expression.empty())
       of_place = std::make_unique<PlaceVariableValues<dim>>(variable,
@@ -558,7 +545,6 @@ namespace scree
             of_place->set(entrant.location, 0., properties.data() + layout.internal_variables);
           fill_entrant(entrant, body, properties);
           std::copy_n(&inflow.velocity()[0], dim, properties.begin() + layout.velocity);
-          set_touching_distances(body, surfaces, entrant.cell, entrant.place, properties.data());
           ++totals.n_entered;
           totals.entered_mass += properties[layout.mass];
           totals.entered_energy +=
@@ -724,8 +710,6 @@ namespace scree
     if (parameters.transfer.transfer_method() == TransferMethod::aflip)
       set_velocity_gradients();
     require_points_outside_obstacles();
-    if (!parameters.has_water)
-      set_touching_distances();
   }
 
 
@@ -757,40 +741,6 @@ namespace scree
                         "points would enter in " + quoted(ObstacleParameters::prefix + obstacle.name) +
                             ", for instance at " + number_text(place.location) +
                             " m. Let it end where the obstacle begins.");
-  }
-
-
-  template <int dim>
-  void Scene<dim>::set_touching_distances()
-  {
-    const auto surfaces = rigid_surfaces();
-    for (auto &body : bodies)
-      for_each_point(body.points, [&](const auto &point) {
-        set_touching_distances(body, surfaces, point.cell, point.reference_location, point.properties);
-      });
-  }
-
-
-  template <int dim>
-  void Scene<dim>::set_touching_distances(const SoilBody<dim> &body,
-                                          const std::vector<RigidSurface<dim>> &surfaces,
-                                          const unsigned int cell,
-                                          const Point<dim> &place,
-                                          double *properties) const
-  {
-    for (unsigned int s = 0; s < surfaces.size(); ++s)
-      {
-        double &distance = properties[body.layout.touching_distance(s)];
-        distance         = 0.5 * body.spacing;
-        if (!surfaces[s].samples->is_near(cell))
-          continue;
-        const SurfaceView<dim> view = surfaces[s].samples->view(cell, place);
-        double largest              = 0.; // component of the normal
-        for (unsigned int a = 0; a < dim; ++a)
-          largest = std::max(largest, std::abs(view.normal[a]));
-        if (view.distance < body.spacing * largest * (1. + 1e-9)) // the lattice's lowest point over the surface
-          distance = std::max(0., view.distance);
-      }
   }
 
 

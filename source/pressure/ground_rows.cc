@@ -44,6 +44,27 @@ namespace scree
 
 
   template <int dim>
+  void GroundRows<dim>::add(const GroundRow<dim> &row,
+                            const CutFacet<dim> &facet,
+                            const Tensor<1, dim> &admissible,
+                            const double least_mass,
+                            const NodalField<dim> &soil)
+  {
+    all.push_back(row);
+    all.back().flow = Tensor<1, dim>();
+    facets.push_back(&facet);
+    for (unsigned int i = 0; i < facet.shapes.size(); ++i)
+      {
+        const double *values = soil[grid.nodes(facet.cell)[i]];
+        const double mass    = values[NodalField<dim>::mass];
+        of_flow.push_back(row.area * std::min(facet.shapes[i], mass / least_mass));
+        if (mass > 0.)
+          all.back().flow += of_flow.back() * (vector_of<dim>(values + NodalField<dim>::velocity) - admissible);
+      }
+  }
+
+
+  template <int dim>
   void GroundRows<dim>::add_forces(const Vectors &tractions, FlowField<dim> &forces) const
   {
     const unsigned int n_nodes = grid.n_nodes_per_cell();

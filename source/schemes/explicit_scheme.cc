@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/schemes/explicit_scheme.h>
 
+#include <algorithm>
 #include <iterator>
 
 namespace scree
@@ -13,9 +14,12 @@ namespace scree
                                     WallGaps<dim> &wall_gaps,
                                     TimerOutput &timer)
       : soil(model.grid, model.transfer, model.stabilisation, model.bodies, model.loads, number)
+      , closed_faces(model.constraints[number]->faces_closed_to_soil())
       , wall_gaps(wall_gaps)
       , momentum(*model.constraints[number], wall_gaps, model.forces)
-      , contact(model.grid, *model.constraints[number], model.surfaces, model.forces, model.bodies, number, timer)
+      , ground_gaps(model.grid, model.cut_cells, model.forces.fall().norm())
+      , contact(model.grid, model.ground, model.surfaces, model.cut_cells, ground_gaps, timer)
+      , tractions(model.grid, *model.constraints[number])
   {
     wall_gaps.add({ &soil.field });
   }
@@ -23,7 +27,8 @@ namespace scree
 
   template <int dim>
   ExplicitScheme<dim>::ExplicitScheme(const Model<dim> &model, TimerOutput &timer)
-      : bodies(model.bodies)
+      : grid(model.grid)
+      , bodies(model.bodies)
       , forces(model.forces)
       , meets_surfaces(!model.surfaces.empty())
       , timer(timer)
@@ -92,12 +97,77 @@ namespace scree
         contact.find();
       }
     solve_contacts(time_step, budget);
-    for (Group &group : groups)
-      group.contact.solve(group.soil.field, time_step, budget);
+    solve_ground(time_step, budget);
     if (meets_surfaces)
       solve_contacts(time_step, budget); // The surfaces have stopped some of what lies on them.
     for (const auto &contact : contacts)
       contact.count_dissipation(budget);
+  }
+
+
+  template <int dim>
+  void ExplicitScheme<dim>::solve_ground(const double time_step, Budget<dim> &budget)
+  {
+    if (!meets_surfaces)
+      return;
+    const TimedPart part(timer, TimerSection::bed);
+    unsigned int number = 0;
+    for (Group &group : groups)
+      {
+        GroundRows<dim> &rows =
+            group.contact.find_rows(bodies, number++, group.soil.field, forces.mass_scaling(), time_step);
+        group.tractions.solve(rows, group.soil.field, time_step, budget);
+        group.contact.count_rows(
+            [&](const unsigned int node) { return group.tractions.working_velocity_of(node); }, time_step, budget);
+        group.soil.field.update_ghosts();
+      }
+  }
+
+
+  template <int dim>
+  void ExplicitScheme<dim>::project_to_ground(const double time_step, const double largest_speed)
+  {
+    const double farthest = 0.25 * grid.cell_size() + 2. * time_step * largest_speed;
+    for (auto &body : bodies)
+      if (!body.is_rigid)
+        {
+          Group &group = *std::next(groups.begin(), body.group);
+          group.contact.project_to_boundary(body.points, farthest, group.closed_faces);
+        }
+  }
+
+
+  template <int dim>
+  std::vector<FacetTractions<dim>> ExplicitScheme<dim>::ground_tractions() const
+  {
+    std::vector<FacetTractions<dim>> all;
+    unsigned int number = 0;
+    for (const Group &group : groups)
+      {
+        for (FacetTractions<dim> &one : group.contact.tractions())
+          {
+            one.group = number;
+            all.push_back(one);
+          }
+        ++number;
+      }
+    return all;
+  }
+
+
+  template <int dim>
+  void ExplicitScheme<dim>::set_ground_tractions(const std::vector<FacetTractions<dim>> &tractions)
+  {
+    unsigned int number = 0;
+    for (Group &group : groups)
+      {
+        std::vector<FacetTractions<dim>> of_group;
+        std::copy_if(tractions.begin(), tractions.end(), std::back_inserter(of_group), [number](const auto &one) {
+          return one.group == number;
+        });
+        group.contact.set_tractions(of_group);
+        ++number;
+      }
   }
 
 

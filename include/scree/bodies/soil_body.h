@@ -24,43 +24,25 @@ namespace scree
     bool has_damping;          ///< whether points have it
     unsigned int start;        ///< location at the start of the run, m, dim
     bool has_start;            ///< whether points keep it
-    unsigned int contacts;     ///< with each of the rigid surfaces: touching_distance() and contact_force()
-    unsigned int n_contacts;   ///< surfaces: the bed and obstacles
     unsigned int n_properties; ///< doubles of a point in total
 
     /// @param n_internal_variables of the material law
     /// @param with_affine whether the transfer carries an affine velocity field
     /// @param with_start whether points keep where they started
-    /// @param n_contacts rigid surfaces: the bed and obstacles
     /// @param with_damping whether the skeleton is damped
     /// @param n_further slots behind the soil's own: of water that rides on the points
     PropertyLayout(const unsigned int n_internal_variables,
                    const bool with_affine,
                    const unsigned int n_further  = 0,
                    const bool with_start         = false,
-                   const unsigned int n_contacts = 0,
                    const bool with_damping       = false)
         : affine(internal_variables + n_internal_variables)
         , damping(affine + (with_affine ? dim * dim : 0))
         , has_damping(with_damping)
         , start(damping + (with_damping ? n_symmetric_components<dim> : 0))
         , has_start(with_start)
-        , contacts(start + (with_start ? dim : 0))
-        , n_contacts(n_contacts)
-        , n_properties(contacts + n_contacts * (1 + dim) + n_further)
+        , n_properties(start + (with_start ? dim : 0) + n_further)
     {
-    }
-
-    /// Distance from a rigid surface at which the point touches it, m.
-    unsigned int touching_distance(const unsigned int surface) const
-    {
-      return contacts + surface * (1 + dim);
-    }
-
-    /// Force of a rigid surface on the point, N (2D: per m), dim.
-    unsigned int contact_force(const unsigned int surface) const
-    {
-      return touching_distance(surface) + 1;
     }
   };
 

@@ -176,14 +176,6 @@ namespace scree
       return regions;
     }
 
-    /// The bed, and the obstacles that are set.
-    unsigned int n_rigid_surfaces() const
-    {
-      return bed.is_set() + std::count_if(obstacles.begin(), obstacles.end(), [](const ObstacleParameters &obstacle) {
-               return obstacle.surface.is_set();
-             });
-    }
-
     /// Whether the skeleton of the soil is damped: in water, where it may rub against ground or walls.
     bool damps_skeleton() const;
 

@@ -3,6 +3,7 @@
 #define scree_contact_node_contact_h
 
 #include <scree/boundary/node_constraint.h>
+#include <scree/step/budget.h>
 
 #include <algorithm>
 
@@ -58,6 +59,25 @@ namespace scree
       return after;
     const double share = change * own_change / square; // more than 1 in size: other forces pushed the same way
     return after - 0.5 * share * std::clamp(share, -1., 1.) * own_change;
+  }
+
+
+  /// Stops what moves into walls that it could lift off from.
+  /// @param inverse_mass 1/kg, above 0
+  template <int dim>
+  void stop_at_walls(const NodeConstraints<dim> &walls,
+                     const double inverse_mass,
+                     dealii::Tensor<1, dim> &velocity,
+                     Budget<dim> &balance)
+  {
+    for (const NodeConstraint<dim> &wall : walls.soil)
+      if (const double speed = velocity * wall.normal; wall.type == NodeConstraint<dim>::Type::unilateral && speed < 0.)
+        {
+          const dealii::Tensor<1, dim> change = -speed * wall.normal;
+          velocity += change;
+          balance.wall_impulse += change / inverse_mass;
+          balance.soil_walls.add(walls.soil_faces, change / inverse_mass);
+        }
   }
 } // namespace scree
 

@@ -21,6 +21,15 @@ namespace scree
     /// to 1e6 m/s: their gradient is not small.
     constexpr double least_inertia = 0.01;
 
+    /// Mass of the nodes at a segment of the ground over that inside soil, from which on the ground acts on dry soil
+    /// in a cell without points. Without these segments, those of thin cells come and go as soil slides past: the force
+    /// on a frictionless block varies by 7 % (now 1 %). From .1 on, a block on an arc loses .5 % more energy.
+    constexpr double least_cover = 0.25;
+
+    /// Mass of a node over that inside soil, from which on it counts wholly at segments of the ground on dry soil. With
+    /// .01 the mean force of a piston deviates by .25 % (now .03 %), with .1 a block on an arc loses .7 % more energy.
+    constexpr double least_row_inertia = 0.03;
+
     /// Open fraction of a cut cell; less counts as so much.
     constexpr double least_open_fraction = 1e-6;
 

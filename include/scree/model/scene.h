@@ -58,9 +58,9 @@ namespace scree
     }
 
     /// Whether obstacles may move in water, so that cut_cells have to follow them.
-    bool wet_ground_moves() const
+    bool ground_moves() const
     {
-      return wet_ground && wet_ground->moves();
+      return rigid_ground && rigid_ground->moves();
     }
 
     /// Adds the speeds of the obstacles at a time, s.
@@ -149,9 +149,7 @@ namespace scree
     std::unique_ptr<LevelSet<dim>> ground;          ///< null without a bed
     std::unique_ptr<DiscreteLevelSet<dim>> bed;     ///< the same as the mesh sees it
     std::unique_ptr<LevelSet<dim>> union_level_set; ///< bed and obstacles as one; null without water or obstacles
-    std::unique_ptr<LevelSet<dim>> joined_at_rest;  ///< those at rest; null if there is no more than the bed
-    std::unique_ptr<DiscreteLevelSet<dim>> joined_samples; ///< the same as the mesh sees it
-    std::unique_ptr<RigidBoundary<dim>> wet_ground;        ///< what water meets; null if there is nothing
+    std::unique_ptr<RigidBoundary<dim>> rigid_ground;        ///< what water meets; null if there is nothing
     std::shared_ptr<const SeepageField<dim>> seepage;      ///< steady, before the first step; null without
     std::unique_ptr<CutCells<dim>> cut_cells; ///< what ground leaves of the cells; null without water or ground
 
@@ -197,17 +195,6 @@ namespace scree
     std::pair<unsigned int, unsigned int> points_per_cell() const;
     void fill_with_points();
     void set_velocity_gradients();
-    void set_touching_distances();
-
-    /// Of one point of a body.
-    /// @param surfaces as rigid_surfaces()
-    /// @param cell active cell index
-    /// @param place in the cell, from 0 to 1 along each axis
-    void set_touching_distances(const SoilBody<dim> &body,
-                                const std::vector<RigidSurface<dim>> &surfaces,
-                                const unsigned int cell,
-                                const dealii::Point<dim> &place,
-                                double *properties) const;
 
     /// Tells the nodes which inflow moves them. Until the next step begins they are at rest.
     void hold_at_inflows()

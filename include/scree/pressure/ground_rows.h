@@ -23,6 +23,7 @@ namespace scree
   {
     std::uint64_t cell = 0;       ///< FineCells::Cell::number
     unsigned int part  = 0;       ///< of RigidBoundary
+    unsigned int group = 0;       ///< of the bodies
     dealii::Tensor<1, dim> soil;  ///< of the soil, Pa, out of the open
     dealii::Tensor<1, dim> water; ///< of the water, Pa
 
@@ -30,7 +31,7 @@ namespace scree
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &cell &part &soil &water;
+      archive &cell &part &group &soil &water;
     }
   };
 
@@ -102,6 +103,13 @@ namespace scree
              const double least_mass,
              const MixtureNodes<dim> &nodes);
 
+    /// The same of soil without water, which has the flow alone.
+    void add(const GroundRow<dim> &row,
+             const CutFacet<dim> &facet,
+             const dealii::Tensor<1, dim> &admissible,
+             const double least_mass,
+             const NodalField<dim> &soil);
+
     /// Adds the forces of the ground under tractions, Pa, to those on u and q, N: this rank's part of -N^T t.
     void add_forces(const Vectors &tractions, FlowField<dim> &forces) const;
 
@@ -116,6 +124,12 @@ namespace scree
     double weight(const unsigned int row, const unsigned int i) const
     {
       return of_flow[row * grid.n_nodes_per_cell() + i];
+    }
+
+    /// The nodes of a row's cell.
+    const unsigned int *nodes(const unsigned int row) const
+    {
+      return grid.nodes(facets[row]->cell);
     }
 
     std::vector<GroundRow<dim>> all; ///< with the tractions of the last solve

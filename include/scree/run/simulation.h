@@ -213,7 +213,7 @@ namespace scree
     {
       const std::unique_ptr<WaterView<dim>> water = scene.is_fed() ? scheme->water_view() : nullptr;
       scene.let_in(clock.time(), time_step, water ? water->pressure_of_cell : PressureOfCell<dim>(), totals);
-      if (scene.wet_ground_moves())
+      if (scene.ground_moves())
         {
           const TimedPart part(timer, TimerSection::bed);
           scene.cut_cells->follow();

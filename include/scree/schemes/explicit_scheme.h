@@ -2,8 +2,10 @@
 #ifndef scree_schemes_explicit_scheme_h
 #define scree_schemes_explicit_scheme_h
 
-#include <scree/contact/points/turbulent_friction.h>
+#include <scree/contact/turbulent_friction.h>
 #include <scree/contact/bodies/body_contact.h>
+#include <scree/contact/cut_cells/cut_cell_contact.h>
+#include <scree/contact/cut_cells/traction_solver.h>
 #include <scree/momentum/explicit_update.h>
 #include <scree/schemes/scheme.h>
 #include <scree/momentum/solid_phase.h>
@@ -28,6 +30,7 @@ namespace scree
         {
           group.soil.reinit();
           group.contact.reinit();
+          group.tractions.reinit();
         }
       for (auto &contact : contacts)
         contact.reinit();
@@ -48,9 +51,15 @@ namespace scree
         group.soil.to_grid(time);
       for (WallGaps<dim> &gaps : wall_gaps)
         gaps.clear();
+      for (Group &group : groups)
+        group.ground_gaps.clear();
       for (const auto &body : bodies)
         if (!body.is_rigid)
-          std::next(groups.begin(), body.group)->wall_gaps.add(body.points, body.spacing);
+          {
+            Group &group = *std::next(groups.begin(), body.group);
+            group.wall_gaps.add(body.points, body.spacing);
+            group.ground_gaps.add(body.points, body.layout.velocity, body.spacing);
+          }
     }
     void solve(const double time_step, StepReport<dim> &report) override;
     void to_points(const double time_step, const double damping_time, StepReport<dim> &report) override
@@ -58,6 +67,14 @@ namespace scree
       const TimedPart part(timer, TimerSection::stress);
       for (Group &group : groups)
         group.soil.to_points(time_step, damping_time, report);
+      project_to_ground(time_step, report.speeds.points);
+    }
+    std::vector<FacetTractions<dim>> ground_tractions() const override;
+    void set_ground_tractions(const std::vector<FacetTractions<dim>> &tractions) override;
+    void follow_ground() override
+    {
+      for (Group &group : groups)
+        group.contact.follow();
     }
     NodalForces nodal_forces(const double time_step) const override
     {
@@ -85,9 +102,12 @@ namespace scree
       Group(const Model<dim> &model, const unsigned int number, WallGaps<dim> &wall_gaps, dealii::TimerOutput &timer);
 
       SolidPhase<dim> soil;
+      const std::uint8_t closed_faces; ///< of the box, to the soil
       WallGaps<dim> &wall_gaps;
       ExplicitUpdate<dim> momentum;
-      PointContact<dim> contact; ///< with rigid surfaces
+      GroundGaps<dim> ground_gaps;
+      CutCellContact<dim> contact; ///< with rigid ground
+      TractionSolver<dim> tractions;
     };
 
     /// Those at nodes with these constraints, which groups may share; made where there are none yet.
@@ -101,6 +121,12 @@ namespace scree
 
     /// Sums of all ranks, with the loads, and walls that act. Collective.
     void sum_at_nodes(const double time_step, Budget<dim> &budget);
+
+    /// Impulses of rigid ground. Collective.
+    void solve_ground(const double time_step, Budget<dim> &budget);
+
+    /// Takes points back that have come below the ground.
+    void project_to_ground(const double time_step, const double largest_speed);
 
     /// Impulses where groups meet.
     void solve_contacts(const double time_step, Budget<dim> &budget)
@@ -117,6 +143,7 @@ namespace scree
         group.soil.field.update_ghosts();
     }
 
+    const BackgroundGrid<dim> &grid;
     std::list<SoilBody<dim>> &bodies;
     const BodyForces<dim> &forces;
     const bool meets_surfaces; // rigid ones

@@ -5,7 +5,7 @@
 #include <scree/bodies/water_phase.h>
 #include <scree/boundary/inflow/inflow.h>
 #include <scree/contact/contact_parameters.h>
-#include <scree/contact/points/point_contact.h>
+#include <scree/contact/rigid_surface.h>
 #include <scree/momentum/nodal_forces.h>
 #include <scree/momentum/surface_load.h>
 #include <scree/pressure/ground_rows.h>
@@ -34,7 +34,7 @@ namespace scree
     const PressureParameters &pressure_parameters;   ///< entries of subsection Pressure
     const WaterBoundaryConditions<dim> *water_walls; ///< null in a dry scene
     const std::list<Inflow<dim>> &inflows;           ///< inflows of soil and water
-    const RigidBoundary<dim> *ground;                ///< what water meets; null if there is nothing
+    const RigidBoundary<dim> *ground;                ///< bed and obstacles; null if there are none
     const CutCells<dim> *cut_cells;                  ///< what this leaves of the cells; null: all
     unsigned int soil_points;                        ///< fewest of a body in a cell, along an axis
   };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/contact/bodies/body_contact.h>
-#include <scree/contact/points/contact_dofs.h>
 #include <scree/contact/node_contact.h>
+#include <scree/tensor/vector.h>
 
 #include <algorithm>
 

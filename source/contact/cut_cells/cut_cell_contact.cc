@@ -15,6 +15,20 @@ namespace scree
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Of a node by the field that holds its velocity after a step, m/s.
+    template <int dim>
+    auto mean_velocity_in_step(const NodalField<dim> &field)
+    {
+      return [&field](const unsigned int node) {
+        return vector_of<dim>(field[node] + NodalField<dim>::velocity) -
+               0.5 * vector_of<dim>(field[node] + NodalField<dim>::velocity_change);
+      };
+    }
+  } // namespace
+
+
   template <int dim>
   CutCellContact<dim>::CutCellContact(const BackgroundGrid<dim> &grid,
                                       const RigidBoundary<dim> *ground,
@@ -39,38 +53,6 @@ namespace scree
 
 
   template <int dim>
-  unsigned int CutCellContact<dim>::find_surface(const CutFacet<dim> &segment) const
-  {
-    const GroundPart<dim> &part = ground->parts()[segment.part];
-    unsigned int number         = 0;
-    double nearest              = std::numeric_limits<double>::infinity();
-    for (unsigned int i = 0; i < surfaces.size(); ++i)
-      {
-        const RigidSurface<dim> &surface = surfaces[i];
-        if (surface.samples == part.samples)
-          return i;
-        if (!(surface.obstacle && surface.obstacle->is_moving) && surface.samples->is_near(segment.cell))
-          if (const double distance = surface.samples->view(segment.cell, segment.middle).distance; distance < nearest)
-            {
-              nearest = distance;
-              number  = i;
-            }
-      }
-    return number;
-  }
-
-
-  template <int dim>
-  void CutCellContact<dim>::find_surfaces()
-  {
-    const auto &segments = cut_cells->segments();
-    surface_numbers.resize(segments.size());
-    for (unsigned int s = 0; s < segments.size(); ++s)
-      surface_numbers[s] = find_surface(segments[s]);
-  }
-
-
-  template <int dim>
   void CutCellContact<dim>::reinit()
   {
     if (ground == nullptr)
@@ -91,8 +73,13 @@ namespace scree
       {
         of_segments[s].tractions.cell = cells.cells()[cells.of_index(segments[s].cell)].number;
         of_segments[s].tractions.part = segments[s].part;
+        const Point<dim> lower        = cells.box().corner(cells.cells()[cells.of_index(segments[s].cell)].place);
+        // Those of small segments of curved ground are up to .03 beside the surface's.
+        of_segments[s].normal         = -ground->parts()[segments[s].part]
+                                     .samples
+                                     ->view(segments[s].cell, Point<dim>((segments[s].middle - lower) / grid.cell_size()))
+                                     .normal;
       }
-    find_surfaces();
   }
 
 
@@ -104,7 +91,10 @@ namespace scree
     const std::vector<unsigned int> &numbers = cut_cells->numbers_before();
     for (unsigned int s = 0; s < numbers.size(); ++s)
       if (numbers[s] != cut_cells->none)
-        of_segments[s] = before[numbers[s]];
+        {
+          of_segments[s].tractions = before[numbers[s]].tractions;
+          of_segments[s].viscous   = before[numbers[s]].viscous;
+        }
   }
 
 
@@ -139,7 +129,8 @@ namespace scree
   ObstacleBalance<dim> *CutCellContact<dim>::balance_of(const unsigned int segment, Budget<dim> &balance) const
   {
     const unsigned int first = surfaces.size() - n_obstacles;
-    return surface_numbers[segment] < first ? nullptr : &balance.obstacles[surface_numbers[segment] - first];
+    const unsigned int part = cut_cells->segments()[segment].part;
+    return part < first ? nullptr : &balance.obstacles[part - first];
   }
 
 
@@ -158,12 +149,11 @@ namespace scree
 
 
   template <int dim>
-  void CutCellContact<dim>::add_row(const unsigned int segment,
-                                    const Phase phase,
-                                    const bool is_unilateral,
-                                    const double mass_of_cell,
-                                    const MixtureNodes<dim> &nodes,
-                                    const double time_step)
+  std::pair<GroundRow<dim>, Tensor<1, dim>> CutCellContact<dim>::make_row(const unsigned int segment,
+                                                                          const Phase phase,
+                                                                          const bool is_unilateral,
+                                                                          const NodalField<dim> &field,
+                                                                          const double time_step) const
   {
     const CutFacet<dim> &facet = cut_cells->segments()[segment];
     const OfSegment &last      = of_segments[segment];
@@ -175,15 +165,62 @@ namespace scree
     else if (std::binary_search(holding.begin(), holding.end(), segment))
       row.friction = std::numeric_limits<double>::infinity();
     row.area                       = facet.area;
-    row.normal                     = facet.normal;
     const Tensor<1, dim> of_ground = cut_cells->velocity(facet);
-    const double approach =
-        (mean_velocity(facet, phase == Phase::soil ? nodes.soil : nodes.water) - of_ground) * row.normal;
-    const double allowed            = gaps.allowed_approach(segment, approach, time_step);
-    const Tensor<1, dim> admissible = of_ground + allowed * row.normal;
-    row.is_unilateral               = is_unilateral || allowed > 0.; // what has not arrived does not stick yet
-    row.traction                    = phase == Phase::soil ? last.tractions.soil : last.tractions.water;
-    rows.add(row, facet, admissible, closures::least_inertia * mass_of_cell, nodes);
+    const Tensor<1, dim> slip      = mean_velocity(facet, field) - of_ground;
+    row.normal                     = last.normal;
+    const double approach          = slip * row.normal;
+    const double allowed           = gaps.allowed_approach(segment, approach, time_step);
+    row.is_unilateral              = is_unilateral || allowed > 0.; // what has not arrived does not stick yet
+    row.traction                   = phase == Phase::soil ? last.tractions.soil : last.tractions.water;
+    return { row, of_ground + allowed * row.normal };
+  }
+
+
+  template <int dim>
+  void CutCellContact<dim>::add_row(const unsigned int segment,
+                                    const Phase phase,
+                                    const bool is_unilateral,
+                                    const double mass_of_cell,
+                                    const MixtureNodes<dim> &nodes,
+                                    const double time_step)
+  {
+    const auto [row, admissible] =
+        make_row(segment, phase, is_unilateral, phase == Phase::soil ? nodes.soil : nodes.water, time_step);
+    rows.add(row, cut_cells->segments()[segment], admissible, closures::least_inertia * mass_of_cell, nodes);
+  }
+
+
+  template <int dim>
+  GroundRows<dim> &CutCellContact<dim>::find_rows(const std::list<SoilBody<dim>> &bodies,
+                                                  const unsigned int group,
+                                                  const NodalField<dim> &field,
+                                                  const double mass_scaling,
+                                                  const double time_step)
+  {
+    rows.clear();
+    double density = 0.;
+    is_covered.assign(cut_cells->segments().size(), false);
+    for (const SoilBody<dim> &body : bodies)
+      if (body.group == group && !body.is_rigid)
+        {
+          density = std::max(density, mass_scaling * body.density);
+          for (const auto &cell : body.points.cells())
+            for_segments(cell.cell, [this](const unsigned int segment) { is_covered[segment] = true; });
+        }
+    const double mass_of_cell    = density * Utilities::fixed_power<dim>(grid.cell_size());
+    const auto &segments         = cut_cells->segments();
+    for (unsigned int s = 0; s < segments.size(); ++s)
+      {
+        const unsigned int *nodes = grid.nodes(segments[s].cell);
+        double mass               = 0.; // of nodes, mean over the segment
+        for (unsigned int i = 0; i < segments[s].shapes.size(); ++i)
+          mass += segments[s].shapes[i] * field[nodes[i]][NodalField<dim>::mass];
+        if (!is_covered[s] && mass <= closures::least_cover * mass_of_cell)
+          continue;
+        const auto [row, admissible] = make_row(s, Phase::soil, !is_fixed(s), field, time_step);
+        rows.add(row, segments[s], admissible, closures::least_row_inertia * mass_of_cell, field);
+      }
+    return rows;
   }
 
 
@@ -296,7 +333,7 @@ namespace scree
         };
         (of_soil ? tractions.soil : tractions.water) = row.traction;
         balance.pressure_impulse += // The corrector has booked it there.
-            count(row.segment, of_soil ? nodes.soil : nodes.water, of_weight, weights, balance);
+            count(row.segment, mean_velocity_in_step(of_soil ? nodes.soil : nodes.water), of_weight, weights, balance);
       }
     for (const unsigned int s : holding)
       {
@@ -306,15 +343,35 @@ namespace scree
           const double shape = nodes.water[of_cell[i]][NodalField<dim>::mass] > 0. ? segment.shapes[i] : 0.;
           return { { shape, shape } };
         };
-        count(s, nodes.water, of_segments[s].viscous, weights, balance);
+        count(s, mean_velocity_in_step(nodes.water), of_segments[s].viscous, weights, balance);
       }
   }
 
 
   template <int dim>
-  template <typename Weights>
+  void CutCellContact<dim>::count_rows(const std::function<Tensor<1, dim>(unsigned int node)> &working_velocity,
+                                       const double time_step,
+                                       Budget<dim> &balance)
+  {
+    balance.obstacles.resize(n_obstacles);
+    for (OfSegment &segment : of_segments)
+      segment.tractions.soil = Tensor<1, dim>();
+    for (unsigned int k = 0; k < rows.all.size(); ++k)
+      {
+        const GroundRow<dim> &row               = rows.all[k];
+        of_segments[row.segment].tractions.soil = row.traction;
+        const auto weights                      = [&](const unsigned int i) -> std::array<double, 2> {
+          return { { rows.weight(k, i), rows.weight(k, i) } };
+        };
+        count(row.segment, working_velocity, time_step * row.traction, weights, balance);
+      }
+  }
+
+
+  template <int dim>
+  template <typename Velocity, typename Weights>
   Tensor<1, dim> CutCellContact<dim>::count(const unsigned int s,
-                                            const NodalField<dim> &field,
+                                            const Velocity &velocity_of,
                                             const Tensor<1, dim> &force,
                                             const Weights &weights,
                                             Budget<dim> &balance) const
@@ -324,13 +381,12 @@ namespace scree
     const CutFacet<dim> &segment = cut_cells->segments()[s];
     const unsigned int *of_cell  = grid.nodes(segment.cell);
     double of_momentum           = 0.;
-    Tensor<1, dim> velocity; // mean of the step's, with which an impulse does work
+    Tensor<1, dim> velocity;
     for (unsigned int i = 0; i < segment.shapes.size(); ++i)
       {
         const auto [weight, weight_of_momentum] = weights(i);
         of_momentum += weight_of_momentum;
-        velocity += weight * (vector_of<dim>(field[of_cell[i]] + NodalField<dim>::velocity) -
-                              0.5 * vector_of<dim>(field[of_cell[i]] + NodalField<dim>::velocity_change));
+        velocity += weight * velocity_of(of_cell[i]);
       }
     const Tensor<1, dim> given = of_momentum * force;
     const double dissipation   = force * velocity;

@@ -3,10 +3,12 @@
 #define scree_contact_cut_cells_cut_cell_contact_h
 
 #include <scree/boundary/ground_gaps.h>
-#include <scree/contact/points/point_contact.h>
+#include <scree/contact/rigid_surface.h>
 #include <scree/momentum/two_phase_momentum.h>
 #include <scree/pressure/ground_rows.h>
 
+#include <functional>
+#include <list>
 #include <vector>
 
 namespace scree
@@ -24,7 +26,7 @@ namespace scree
   {
   public:
     /// @param ground all surfaces; null: there is no contact, and all calls return at once
-    /// @param surfaces what it consists of
+    /// @param surfaces what it consists of, in the order of its parts
     /// @param cut_cells of the ground, null without it
     /// @param gaps between the ground and particles
     CutCellContact(const BackgroundGrid<dim> &grid,
@@ -71,6 +73,21 @@ namespace scree
                                const FreeSurface<dim> &surface,
                                const double time_step);
 
+    /// Finds the rows of a step without water, at segments that soil covers.
+    /// @param group of the bodies whose nodes `field` has; solved without ground, and ghosts hold values
+    /// @param mass_scaling of the nodes
+    GroundRows<dim> &find_rows(const std::list<SoilBody<dim>> &bodies,
+                               const unsigned int group,
+                               const NodalField<dim> &field,
+                               const double mass_scaling,
+                               const double time_step);
+
+    /// Books their tractions over the step.
+    /// @param working_velocity m/s, of a node of a row: with which the traction does work there
+    void count_rows(const std::function<dealii::Tensor<1, dim>(unsigned int node)> &working_velocity,
+                    const double time_step,
+                    Budget<dim> &balance);
+
     /// Books the tractions of the rows over a step, once the nodes have moved; ghosts of `nodes` hold values.
     void count_rows(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &balance);
 
@@ -94,6 +111,7 @@ namespace scree
     /// Of a segment.
     struct OfSegment
     {
+      dealii::Tensor<1, dim> normal;  // unit, of the surface at its middle, out of the open
       dealii::Tensor<1, dim> viscous; // N s, out of the open, of add_viscous_force() in this step
       FacetTractions<dim> tractions;  // of the last solve, with which the next one begins
     };
@@ -101,11 +119,12 @@ namespace scree
     void make_segments();
 
     /// Books a force that soil or water has given to a segment, times its weights at the nodes, N s, and its work; what
-    /// of that is momentum. Ghosts of `field` hold values.
-    /// @param weights by node of the cell, and what of them counts as momentum
-    template <typename Weights>
+    /// of that is momentum.
+    /// @param velocity m/s, by node of the cell: with which the force does work
+    /// @param weights the same, and what of them counts as momentum
+    template <typename Velocity, typename Weights>
     dealii::Tensor<1, dim> count(const unsigned int segment,
-                                 const NodalField<dim> &field,
+                                 const Velocity &velocity,
                                  const dealii::Tensor<1, dim> &force,
                                  const Weights &weights,
                                  Budget<dim> &balance) const;
@@ -126,6 +145,14 @@ namespace scree
                  const MixtureNodes<dim> &nodes,
                  const double time_step);
 
+    /// A row of a segment, and the velocity, m/s, into the ground that it admits.
+    /// @param field of the phase
+    std::pair<GroundRow<dim>, dealii::Tensor<1, dim>> make_row(const unsigned int segment,
+                                                               const Phase phase,
+                                                               const bool is_unilateral,
+                                                               const NodalField<dim> &field,
+                                                               const double time_step) const;
+
     /// The force of add_viscous_force() at a segment, N.
     dealii::Tensor<1, dim> viscous_force(const unsigned int segment,
                                          const NodalField<dim> &motion,
@@ -138,7 +165,7 @@ namespace scree
     /// The surface that a segment belongs to.
     const RigidSurface<dim> &surface_of(const unsigned int segment) const
     {
-      return surfaces[surface_numbers[segment]];
+      return surfaces[cut_cells->segments()[segment].part];
     }
 
     /// Whether soil keeps to a segment and neither slips nor lifts off.
@@ -149,12 +176,6 @@ namespace scree
 
     /// What a segment's surface did, if it is an obstacle; else null.
     ObstacleBalance<dim> *balance_of(const unsigned int segment, Budget<dim> &balance) const;
-
-    /// Finds the segments' surfaces.
-    void find_surfaces();
-
-    /// The surface that a segment is of.
-    unsigned int find_surface(const CutFacet<dim> &segment) const;
 
     const BackgroundGrid<dim> &grid;
     const RigidBoundary<dim> *ground; // may be null
@@ -167,7 +188,7 @@ namespace scree
     const bool any_holds_water;
     std::vector<unsigned int> holding;         // segments along which water does not slip in this step, ascending
     std::vector<OfSegment> of_segments;        // by segment
-    std::vector<unsigned int> surface_numbers; // the same
+    std::vector<char> is_covered;              // the same: whether soil without water is in its cell
   };
 } // namespace scree
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef scree_contact_points_turbulent_friction_h
-#define scree_contact_points_turbulent_friction_h
+#ifndef scree_contact_turbulent_friction_h
+#define scree_contact_turbulent_friction_h
 
 #include <scree/bodies/soil_body.h>
 #include <scree/mesh/discrete_level_set.h>

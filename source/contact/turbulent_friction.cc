@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/contact/points/turbulent_friction.h>
+#include <scree/contact/turbulent_friction.h>
 #include <scree/mesh/cell_basis.h>
 #include <scree/tensor/vector.h>
 
