@@ -57,7 +57,7 @@ namespace scree
           middle += 1. / dim * corner;
         const double size      = area.norm();
         CutFacet<dim> &segment = facet_of(cut, middle);
-        if (size > 0.)
+        if (size > 0. && content == Content::all)
           cut.faces.push_back({ face, area / size, segment.part });
         segment.area += size;
         segment.normal += area;
@@ -137,15 +137,25 @@ namespace scree
     cut.cell       = cell;
     cut.may_change = may_change;
     cut.open       = open_part(std::move(simplices), linear_crossing<dim>);
-    CubicWeights<dim> integrals;
-    for (const Simplex<dim> &simplex : cut.open)
-      integrals.add(simplex);
-    cut.open_fraction = integrals.fraction;
-    cut.weights       = integrals.weights;
-    cut.open_hats     = integrals.hats;
     integrate_ground(cut.open, cut);
-    if (cut.open_fraction > 1. - nothing && cut.n_segments == 0)
-      return;
+    if (content == Content::segments)
+      {
+        if (cut.n_segments == 0)
+          return;
+        cut.open.clear();
+        cut.open.shrink_to_fit();
+      }
+    else
+      {
+        CubicWeights<dim> integrals;
+        for (const Simplex<dim> &simplex : cut.open)
+          integrals.add(simplex);
+        cut.open_fraction = integrals.fraction;
+        cut.weights       = integrals.weights;
+        cut.open_hats     = integrals.hats;
+        if (cut.open_fraction > 1. - nothing && cut.n_segments == 0)
+          return;
+      }
     entry_of_cell[cell] = cut_cells.size();
     cut_cells.push_back(std::move(cut));
   }

@@ -144,13 +144,18 @@ namespace scree
     if (!obstacles.empty())
       union_level_set = std::make_unique<JoinedSurface<dim>>(all);
     rigid_ground = std::make_unique<RigidBoundary<dim>>(parts);
+    if (!parameters.has_water)
+      {
+        cut_cells = std::make_unique<CutCells<dim>>(grid, *rigid_ground, 0., CutCells<dim>::Content::segments);
+        return;
+      }
     // Between a half and the whole of the points' spacing; doc/developer/development_log.md, "Moving obstacles in
     // water", has what others do.
     constexpr double thinnest = 0.75;
-    const unsigned int points = parameters.has_water && parameters.water.point_sets_kind() == PointSets::double_point
+    const unsigned int points = parameters.water.point_sets_kind() == PointSets::double_point
                                     ? parameters.water.points_per_cell
                                     : points_per_cell().first;
-    cut_cells                 = std::make_unique<CutCells<dim>>(grid, *rigid_ground, parameters.has_water ? thinnest / points : 0.);
+    cut_cells                 = std::make_unique<CutCells<dim>>(grid, *rigid_ground, thinnest / points);
   }
 
 

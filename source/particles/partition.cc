@@ -50,46 +50,21 @@ namespace scree
 
 
   template <int dim>
-  std::array<typename Partition<dim>::WorkOfRanks, 3> Partition<dim>::collect()
+  std::array<typename Partition<dim>::WorkOfRanks, 2> Partition<dim>::collect()
   {
     const auto own        = [this](const Work work) { return work_of_rank[unsigned(work)]; };
     const double to_nodes = own(Work::to_nodes), solving = own(Work::solving), to_points = own(Work::to_points);
-    const double contact = n_steps * contacts();
-    // Contact of points with the ground is timed by itself; else solving at the nodes is like points to grid.
-    enum
-    {
-      with_solving,
-      without,
-      points,
-      all_with_solving,
-      all,
-      alone,
-      number
-    };
-    const auto of_ranks = Utilities::MPI::min_max_avg(std::vector<double>{ to_nodes + solving,
-                                                                           to_nodes,
-                                                                           to_points,
-                                                                           to_nodes + solving + to_points,
-                                                                           to_nodes + contact + to_points,
-                                                                           contact,
-                                                                           number_of_points() },
-                                                      communicator);
-    has_contact         = has_contact || of_ranks[alone].max > 0.;
-    const auto work     = [&](const unsigned int w) { return WorkOfRanks{ of_ranks[w].max, of_ranks[w].avg }; };
+    const auto of_ranks = Utilities::MPI::min_max_avg(
+        std::vector<double>{ to_nodes, to_nodes + solving, to_points, number_of_points() }, communicator);
+    const auto &of_nodes = of_ranks[0], &with_solving = of_ranks[1], &of_points = of_ranks[2], &number = of_ranks[3];
     // A rank with little to do waits in solving, in the processor's time: what is uneven is the rest.
-    const auto with_waits = [&](const unsigned int own, const unsigned int whole) {
-      return WorkOfRanks{ of_ranks[whole].avg + of_ranks[own].max - of_ranks[own].avg, of_ranks[whole].avg };
-    };
-    const std::array<WorkOfRanks, 3> works{ { has_contact ? work(without) : with_waits(without, with_solving),
-                                              work(points),
-                                              has_contact ? work(all) : with_waits(all, all_with_solving) } };
-    for (const WorkOfRanks &one : { works[0], works[1], work(alone) })
+    const std::array<WorkOfRanks, 2> works{ { { with_solving.avg + of_nodes.max - of_nodes.avg, with_solving.avg },
+                                              { of_points.max, of_points.avg } } };
+    for (const WorkOfRanks &one : works)
       {
         sum_of_largest += one.largest;
         sum_of_mean += one.mean;
       }
-    if (n_steps > 0 && of_ranks[number].avg > 0.)
-      to_nodes_of_point = works[0].mean / n_steps / of_ranks[number].avg;
     this->to_points += to_points;
     n_steps_in_partition += n_steps;
     work_of_rank.fill(0.);
@@ -115,20 +90,14 @@ namespace scree
     if (n_steps < steps_between_looks)
       return false;
 
-    const std::array<WorkOfRanks, 3> works = collect();
+    const std::array<WorkOfRanks, 2> works = collect();
     const auto mean                        = [&](const Weights of) { return works[unsigned(of)].mean; };
-    const double in_points = mean(Weights::points) + mean(Weights::costs), all = mean(Weights::all);
-    // Ranks meet between the works: the sum of their largest times is least where over half of the work is even.
     // Works of about the same length must not take turns.
     constexpr double clearly = 1.25;
-    if (all > 2. * in_points)
-      weights = Weights::all;
-    else if (mean(Weights::costs) > clearly * mean(Weights::points))
+    if (mean(Weights::costs) > clearly * mean(Weights::points))
       weights = Weights::costs;
     else if (mean(Weights::points) > clearly * mean(Weights::costs))
       weights = Weights::points;
-    else if (weights == Weights::all)
-      weights = Weights::costs;
     surplus += works[unsigned(weights)].largest - works[unsigned(weights)].mean;
     // So changes in vain, where cells are too few to be shared out evenly, take no longer than what they answer.
     return surplus > duration;
@@ -168,10 +137,8 @@ namespace scree
         {
           const unsigned int index = typename Triangulation<dim>::active_cell_iterator(cell)->active_cell_index();
           const CellCosts &costs   = sets[s]->costs();
-          double of_point =
+          const double of_point =
               weights == Weights::points ? typical_costs[s] : calibration * costs.of_point(index, typical_costs[s]);
-          if (weights == Weights::all)
-            of_point += to_nodes_of_point + costs.of_contacts(index);
           seconds += sets[s]->handler().n_particles_in_cell(cell) * of_point;
         }
     constexpr double most = 1e6; // ns; sums over the cells of a rank stay integers

@@ -46,21 +46,22 @@ namespace scree
   template <int dim>
   void GroundRows<dim>::add(const GroundRow<dim> &row,
                             const CutFacet<dim> &facet,
-                            const Tensor<1, dim> &admissible,
                             const double least_mass,
                             const NodalField<dim> &soil)
   {
-    all.push_back(row);
-    all.back().flow = Tensor<1, dim>();
-    facets.push_back(&facet);
+    const unsigned int *nodes = grid.nodes(facet.cell);
+    Tensor<1, dim> flow;
     for (unsigned int i = 0; i < facet.shapes.size(); ++i)
       {
-        const double *values = soil[grid.nodes(facet.cell)[i]];
+        const double *values = soil[nodes[i]];
         const double mass    = values[NodalField<dim>::mass];
         of_flow.push_back(row.area * std::min(facet.shapes[i], mass / least_mass));
         if (mass > 0.)
-          all.back().flow += of_flow.back() * (vector_of<dim>(values + NodalField<dim>::velocity) - admissible);
+          flow += of_flow.back() * vector_of<dim>(values + NodalField<dim>::velocity);
       }
+    facets.push_back(&facet);
+    all.push_back(row);
+    all.back().flow = flow;
   }
 
 

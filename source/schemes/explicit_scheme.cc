@@ -117,8 +117,7 @@ namespace scree
         GroundRows<dim> &rows =
             group.contact.find_rows(bodies, number++, group.soil.field, forces.mass_scaling(), time_step);
         group.tractions.solve(rows, group.soil.field, time_step, budget);
-        group.contact.count_rows(
-            [&](const unsigned int node) { return group.tractions.working_velocity_of(node); }, time_step, budget);
+        group.contact.count_rows(group.tractions, time_step, budget);
         group.soil.field.update_ghosts();
       }
   }

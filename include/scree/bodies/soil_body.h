@@ -33,9 +33,9 @@ namespace scree
     /// @param n_further slots behind the soil's own: of water that rides on the points
     PropertyLayout(const unsigned int n_internal_variables,
                    const bool with_affine,
-                   const unsigned int n_further  = 0,
-                   const bool with_start         = false,
-                   const bool with_damping       = false)
+                   const unsigned int n_further = 0,
+                   const bool with_start        = false,
+                   const bool with_damping      = false)
         : affine(internal_variables + n_internal_variables)
         , damping(affine + (with_affine ? dim * dim : 0))
         , has_damping(with_damping)

@@ -11,11 +11,11 @@ namespace scree
   template <int dim>
   struct RigidSurface
   {
-    const DiscreteLevelSet<dim> *samples;      ///< the surface, sampled on the mesh
-    double friction_coefficient;               ///< infinite: soil that presses does not slip
-    bool no_slip                    = false;   ///< whether free water does not slip
-    const Obstacle<dim> *obstacle   = nullptr; ///< whose surface it is; null: the bed
-    double turbulent_friction       = 0;       ///< xi of TurbulentFriction, m/s^2; 0: none
+    const DiscreteLevelSet<dim> *samples;    ///< the surface, sampled on the mesh
+    double friction_coefficient;             ///< infinite: soil that presses does not slip
+    bool no_slip                  = false;   ///< whether free water does not slip
+    const Obstacle<dim> *obstacle = nullptr; ///< whose surface it is; null: the bed
+    double turbulent_friction     = 0;       ///< xi of TurbulentFriction, m/s^2; 0: none
   };
 } // namespace scree
 

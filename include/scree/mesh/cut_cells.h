@@ -55,12 +55,23 @@ namespace scree
   class CutCells
   {
   public:
+    /// What is looked at of a cell.
+    enum class Content
+    {
+      all,
+      segments ///< no volumes, which only water needs; find() gives cells with segments alone
+    };
+
     /// Both are kept by reference.
     /// @param thinnest open part of a cell beside ground that moves, cells: what is thinner counts as closed
-    CutCells(const BackgroundGrid<dim> &grid, const RigidBoundary<dim> &ground, const double thinnest = 0.)
+    CutCells(const BackgroundGrid<dim> &grid,
+             const RigidBoundary<dim> &ground,
+             const double thinnest = 0.,
+             const Content content = Content::all)
         : grid(grid)
         , ground(ground)
         , thinnest(thinnest)
+        , content(content)
         , unit_cube(simplices_of_cube(dealii::Point<dim>(), 1.))
     {
       reinit();
@@ -138,6 +149,7 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const RigidBoundary<dim> &ground;
     const double thinnest;
+    const Content content;
     const std::vector<Simplex<dim>> unit_cube;
     std::vector<unsigned int> entry_of_cell; // by active cell index
     std::vector<CutCell<dim>> cut_cells;

@@ -149,9 +149,9 @@ namespace scree
     std::unique_ptr<LevelSet<dim>> ground;          ///< null without a bed
     std::unique_ptr<DiscreteLevelSet<dim>> bed;     ///< the same as the mesh sees it
     std::unique_ptr<LevelSet<dim>> union_level_set; ///< bed and obstacles as one; null without water or obstacles
-    std::unique_ptr<RigidBoundary<dim>> rigid_ground;        ///< what water meets; null if there is nothing
-    std::shared_ptr<const SeepageField<dim>> seepage;      ///< steady, before the first step; null without
-    std::unique_ptr<CutCells<dim>> cut_cells; ///< what ground leaves of the cells; null without water or ground
+    std::unique_ptr<RigidBoundary<dim>> rigid_ground; ///< what water meets; null if there is nothing
+    std::shared_ptr<const SeepageField<dim>> seepage; ///< steady, before the first step; null without
+    std::unique_ptr<CutCells<dim>> cut_cells;         ///< what ground leaves of the cells; null without water or ground
 
   private:
     /// Walls do not act where obstacles that move cover them.

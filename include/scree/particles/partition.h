@@ -22,9 +22,7 @@ namespace scree
   /// where that pays.
   ///
   /// A cut through the mesh's curve of cells can even out one kind of work: sorting and points to grid cost the same
-  /// for each point, the law up to fifteen times more where the soil yields, and not all points touch the ground. It
-  /// evens out the longer one of points to grid and the law, or the sum of these and contact where contact takes over
-  /// half of it.
+  /// for each point, the law up to fifteen times more where the soil yields. It evens out the longer one.
   ///
   /// Costs are times of the processor, so on several ranks the partition may differ from run to run; results then
   /// differ by rounding.
@@ -89,8 +87,7 @@ namespace scree
     enum class Weights
     {
       points, ///< all cost the same
-      costs,  ///< the work to the points, as measured
-      all     ///< points to grid, their law and contact with the ground
+      costs   ///< the work to the points, as measured
     };
 
     /// s
@@ -100,7 +97,7 @@ namespace scree
     };
 
     /// Closes the steps that are under way; returns the works that a partition can even out, by Weights. Collective.
-    std::array<WorkOfRanks, 3> collect();
+    std::array<WorkOfRanks, 2> collect();
 
     double number_of_points() const
     {
@@ -108,16 +105,6 @@ namespace scree
       for (const PointSet<dim> *points : sets)
         n_points += points->n_points();
       return n_points;
-    }
-
-    /// What contacts of this rank's points with the ground take, by its cells, s a step.
-    double contacts() const
-    {
-      double sum = 0;
-      for (const PointSet<dim> *points : sets)
-        for (const auto &cell : points->cells())
-          sum += cell.n_points * points->costs().of_contacts(cell.cell);
-      return sum;
     }
 
     /// Means of the measured costs, set by set, and this rank's calibration; collective.
@@ -140,9 +127,7 @@ namespace scree
     double to_points                  = 0;     // work of this rank since the last repartition, up to the last look, s
     unsigned int n_steps_in_partition = 0;     // of that work
     double calibration                = 1;     // work to the points over what this rank's cells say
-    double to_nodes_of_point          = 0;     // s a step, mean of all ranks
     bool has_begun                    = false; // whether a look was taken before
-    bool has_contact                  = false; // whether a rank's points have met the ground since then
     unsigned int n_steps              = 0;     // since the last look
     double surplus                    = 0;     // of the slowest rank's work over the mean since the last repartition, s
     double duration                   = 0;     // of the last repartition, s

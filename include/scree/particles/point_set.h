@@ -22,8 +22,7 @@ namespace scree
   double thread_time();
 
 
-  /// What a point of each of this rank's cells costs, measured around the cells in some passes over them; and what its
-  /// contacts with the ground cost, measured in the same steps.
+  /// What a point of each of this rank's cells costs, measured around the cells in some passes over them.
   ///
   /// Costs belong to active cell indices: reinit() clears them when the mesh is partitioned anew.
   class CellCosts
@@ -40,12 +39,6 @@ namespace scree
     void time_next_pass()
     {
       is_wanted = !cells.empty();
-    }
-
-    /// Whether it will be.
-    bool is_due() const
-    {
-      return is_wanted;
     }
 
     /// A pass over the cells begins.
@@ -99,25 +92,12 @@ namespace scree
       return own.n_measurements == 1 ? own.sum : (own.sum - own.largest) / (own.n_measurements - 1);
     }
 
-    /// Adds the time, s, that contacts of the cell's points took in a step whose next pass is_due().
-    void add_contacts(const unsigned int cell, const unsigned int n_points, const double seconds)
-    {
-      cells[cell].contacts += seconds / n_points;
-    }
-
-    /// Seconds that contacts of a point of the cell take, the mean over its measured passes; 0 without any.
-    double of_contacts(const unsigned int cell) const
-    {
-      return cell < cells.size() && cells[cell].n_measurements > 0 ? cells[cell].contacts / cells[cell].n_measurements
-                                                                   : 0.;
-    }
-
   private:
     using TimeStepper = std::chrono::steady_clock;
 
     struct Cell
     {
-      double sum = 0, largest = 0, contacts = 0; // s a point
+      double sum = 0, largest = 0; // s a point
       unsigned int n_measurements = 0;
     };
 

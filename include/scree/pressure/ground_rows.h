@@ -103,12 +103,9 @@ namespace scree
              const double least_mass,
              const MixtureNodes<dim> &nodes);
 
-    /// The same of soil without water, which has the flow alone.
-    void add(const GroundRow<dim> &row,
-             const CutFacet<dim> &facet,
-             const dealii::Tensor<1, dim> &admissible,
-             const double least_mass,
-             const NodalField<dim> &soil);
+    /// The same of soil without water; the flow is that of the soil's velocity alone.
+    void
+    add(const GroundRow<dim> &row, const CutFacet<dim> &facet, const double least_mass, const NodalField<dim> &soil);
 
     /// Adds the forces of the ground under tractions, Pa, to those on u and q, N: this rank's part of -N^T t.
     void add_forces(const Vectors &tractions, FlowField<dim> &forces) const;
@@ -124,6 +121,15 @@ namespace scree
     double weight(const unsigned int row, const unsigned int i) const
     {
       return of_flow[row * grid.n_nodes_per_cell() + i];
+    }
+
+    /// Their sum over the nodes.
+    double weight_of_row(const unsigned int row) const
+    {
+      double sum = 0.;
+      for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+        sum += weight(row, i);
+      return sum;
     }
 
     /// The nodes of a row's cell.

@@ -75,10 +75,10 @@ namespace scree
         of_segments[s].tractions.part = segments[s].part;
         const Point<dim> lower        = cells.box().corner(cells.cells()[cells.of_index(segments[s].cell)].place);
         // Those of small segments of curved ground are up to .03 beside the surface's.
-        of_segments[s].normal         = -ground->parts()[segments[s].part]
-                                     .samples
-                                     ->view(segments[s].cell, Point<dim>((segments[s].middle - lower) / grid.cell_size()))
-                                     .normal;
+        of_segments[s].normal =
+            -ground->parts()[segments[s].part]
+                 .samples->view(segments[s].cell, Point<dim>((segments[s].middle - lower) / grid.cell_size()))
+                 .normal;
       }
   }
 
@@ -129,7 +129,7 @@ namespace scree
   ObstacleBalance<dim> *CutCellContact<dim>::balance_of(const unsigned int segment, Budget<dim> &balance) const
   {
     const unsigned int first = surfaces.size() - n_obstacles;
-    const unsigned int part = cut_cells->segments()[segment].part;
+    const unsigned int part  = cut_cells->segments()[segment].part;
     return part < first ? nullptr : &balance.obstacles[part - first];
   }
 
@@ -149,30 +149,32 @@ namespace scree
 
 
   template <int dim>
-  std::pair<GroundRow<dim>, Tensor<1, dim>> CutCellContact<dim>::make_row(const unsigned int segment,
-                                                                          const Phase phase,
-                                                                          const bool is_unilateral,
-                                                                          const NodalField<dim> &field,
-                                                                          const double time_step) const
+  GroundRow<dim> CutCellContact<dim>::row_of(const unsigned int segment, const Phase phase) const
   {
-    const CutFacet<dim> &facet = cut_cells->segments()[segment];
-    const OfSegment &last      = of_segments[segment];
+    const OfSegment &last = of_segments[segment];
     GroundRow<dim> row{};
-    row.segment = segment;
-    row.phase   = phase;
+    row.segment  = segment;
+    row.phase    = phase;
+    row.area     = cut_cells->segments()[segment].area;
+    row.normal   = last.normal;
+    row.traction = phase == Phase::soil ? last.tractions.soil : last.tractions.water;
     if (phase == Phase::soil)
       row.friction = surface_of(segment).friction_coefficient;
     else if (std::binary_search(holding.begin(), holding.end(), segment))
       row.friction = std::numeric_limits<double>::infinity();
-    row.area                       = facet.area;
-    const Tensor<1, dim> of_ground = cut_cells->velocity(facet);
-    const Tensor<1, dim> slip      = mean_velocity(facet, field) - of_ground;
-    row.normal                     = last.normal;
-    const double approach          = slip * row.normal;
-    const double allowed           = gaps.allowed_approach(segment, approach, time_step);
-    row.is_unilateral              = is_unilateral || allowed > 0.; // what has not arrived does not stick yet
-    row.traction                   = phase == Phase::soil ? last.tractions.soil : last.tractions.water;
-    return { row, of_ground + allowed * row.normal };
+    return row;
+  }
+
+
+  template <int dim>
+  Tensor<1, dim> CutCellContact<dim>::admissible_velocity(GroundRow<dim> &row,
+                                                          const Tensor<1, dim> &velocity,
+                                                          const double time_step) const
+  {
+    const Tensor<1, dim> of_ground = cut_cells->velocity(cut_cells->segments()[row.segment]);
+    const double allowed           = gaps.allowed_approach(row.segment, (velocity - of_ground) * row.normal, time_step);
+    row.is_unilateral              = row.is_unilateral || allowed > 0.; // what has not arrived does not stick yet
+    return of_ground + allowed * row.normal;
   }
 
 
@@ -184,9 +186,12 @@ namespace scree
                                     const MixtureNodes<dim> &nodes,
                                     const double time_step)
   {
-    const auto [row, admissible] =
-        make_row(segment, phase, is_unilateral, phase == Phase::soil ? nodes.soil : nodes.water, time_step);
-    rows.add(row, cut_cells->segments()[segment], admissible, closures::least_inertia * mass_of_cell, nodes);
+    const CutFacet<dim> &facet = cut_cells->segments()[segment];
+    GroundRow<dim> row         = row_of(segment, phase);
+    row.is_unilateral          = is_unilateral;
+    const Tensor<1, dim> admissible =
+        admissible_velocity(row, mean_velocity(facet, phase == Phase::soil ? nodes.soil : nodes.water), time_step);
+    rows.add(row, facet, admissible, closures::least_inertia * mass_of_cell, nodes);
   }
 
 
@@ -198,8 +203,9 @@ namespace scree
                                                   const double time_step)
   {
     rows.clear();
-    double density = 0.;
-    is_covered.assign(cut_cells->segments().size(), false);
+    const auto &segments = cut_cells->segments();
+    double density       = 0.;
+    is_covered.assign(segments.size(), false);
     for (const SoilBody<dim> &body : bodies)
       if (body.group == group && !body.is_rigid)
         {
@@ -207,18 +213,28 @@ namespace scree
           for (const auto &cell : body.points.cells())
             for_segments(cell.cell, [this](const unsigned int segment) { is_covered[segment] = true; });
         }
-    const double mass_of_cell    = density * Utilities::fixed_power<dim>(grid.cell_size());
-    const auto &segments         = cut_cells->segments();
+    const double mass_of_cell      = density * Utilities::fixed_power<dim>(grid.cell_size());
+    const unsigned int n_nodes     = grid.n_nodes_per_cell();
+    const auto has_enough_at_nodes = [&](const CutFacet<dim> &segment) {
+      const unsigned int *nodes = grid.nodes(segment.cell);
+      if (field[nodes[n_nodes / 2]][NodalField<dim>::mass] <= 0.) // the largest there
+        return false;
+      double mass = 0.; // mean over the segment
+      for (unsigned int i = 0; i < n_nodes; ++i)
+        mass += segment.shapes[i] * field[nodes[i]][NodalField<dim>::mass];
+      return mass > closures::least_cover * mass_of_cell;
+    };
     for (unsigned int s = 0; s < segments.size(); ++s)
       {
-        const unsigned int *nodes = grid.nodes(segments[s].cell);
-        double mass               = 0.; // of nodes, mean over the segment
-        for (unsigned int i = 0; i < segments[s].shapes.size(); ++i)
-          mass += segments[s].shapes[i] * field[nodes[i]][NodalField<dim>::mass];
-        if (!is_covered[s] && mass <= closures::least_cover * mass_of_cell)
+        if (!is_covered[s] && !has_enough_at_nodes(segments[s]))
           continue;
-        const auto [row, admissible] = make_row(s, Phase::soil, !is_fixed(s), field, time_step);
-        rows.add(row, segments[s], admissible, closures::least_row_inertia * mass_of_cell, field);
+        GroundRow<dim> row = row_of(s, Phase::soil);
+        row.is_unilateral  = !is_fixed(s);
+        rows.add(row, segments[s], closures::least_row_inertia * mass_of_cell, field);
+        GroundRow<dim> &added = rows.all.back();
+        const double area     = rows.weight_of_row(rows.all.size() - 1);
+        if (area > 0.)
+          added.flow -= area * admissible_velocity(added, added.flow / area, time_step);
       }
     return rows;
   }
@@ -318,40 +334,45 @@ namespace scree
       segment.tractions.soil = segment.tractions.water = Tensor<1, dim>();
     for (unsigned int k = 0; k < rows.all.size(); ++k)
       {
-        const GroundRow<dim> &row      = rows.all[k];
-        const bool of_soil             = row.phase == Phase::soil;
-        FacetTractions<dim> &tractions = of_segments[row.segment].tractions;
-        const unsigned int *of_cell    = grid.nodes(cut_cells->segments()[row.segment].cell);
-        const Tensor<1, dim> of_weight = time_step * row.traction;
-        const auto weights             = [&](const unsigned int i) -> std::array<double, 2> {
-          // Where both phases are light, a part of the force is of no mass.
-          return {
-            { rows.weight(k, i),
-              rows.weight(k, i) /
-                  nodes.pores[of_cell[i]][of_soil ? PoreField<dim>::pressed_soil : PoreField<dim>::pressed_water] }
-          };
-        };
+        const GroundRow<dim> &row                    = rows.all[k];
+        const bool of_soil                           = row.phase == Phase::soil;
+        FacetTractions<dim> &tractions               = of_segments[row.segment].tractions;
+        const unsigned int *of_cell                  = grid.nodes(cut_cells->segments()[row.segment].cell);
+        const auto velocity                          = mean_velocity_in_step(of_soil ? nodes.soil : nodes.water);
         (of_soil ? tractions.soil : tractions.water) = row.traction;
+        double of_momentum                           = 0.;
+        Tensor<1, dim> working;
+        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+          {
+            const double weight = rows.weight(k, i);
+            // Where both phases are light, a part of the force is of no mass.
+            of_momentum +=
+                weight /
+                nodes.pores[of_cell[i]][of_soil ? PoreField<dim>::pressed_soil : PoreField<dim>::pressed_water];
+            working += weight * velocity(of_cell[i]);
+          }
         balance.pressure_impulse += // The corrector has booked it there.
-            count(row.segment, mean_velocity_in_step(of_soil ? nodes.soil : nodes.water), of_weight, weights, balance);
+            count(row.segment, time_step * row.traction, of_momentum, working, balance);
       }
     for (const unsigned int s : holding)
       {
         const CutFacet<dim> &segment = cut_cells->segments()[s];
         const unsigned int *of_cell  = grid.nodes(segment.cell);
-        const auto weights           = [&](const unsigned int i) -> std::array<double, 2> {
-          const double shape = nodes.water[of_cell[i]][NodalField<dim>::mass] > 0. ? segment.shapes[i] : 0.;
-          return { { shape, shape } };
-        };
-        count(s, mean_velocity_in_step(nodes.water), of_segments[s].viscous, weights, balance);
+        double of_momentum           = 0.;
+        Tensor<1, dim> working;
+        for (unsigned int i = 0; i < segment.shapes.size(); ++i)
+          if (nodes.water[of_cell[i]][NodalField<dim>::mass] > 0.)
+            {
+              of_momentum += segment.shapes[i];
+              working += segment.shapes[i] * mean_velocity_in_step(nodes.water)(of_cell[i]);
+            }
+        count(s, of_segments[s].viscous, of_momentum, working, balance);
       }
   }
 
 
   template <int dim>
-  void CutCellContact<dim>::count_rows(const std::function<Tensor<1, dim>(unsigned int node)> &working_velocity,
-                                       const double time_step,
-                                       Budget<dim> &balance)
+  void CutCellContact<dim>::count_rows(const TractionSolver<dim> &solver, const double time_step, Budget<dim> &balance)
   {
     balance.obstacles.resize(n_obstacles);
     for (OfSegment &segment : of_segments)
@@ -360,36 +381,23 @@ namespace scree
       {
         const GroundRow<dim> &row               = rows.all[k];
         of_segments[row.segment].tractions.soil = row.traction;
-        const auto weights                      = [&](const unsigned int i) -> std::array<double, 2> {
-          return { { rows.weight(k, i), rows.weight(k, i) } };
-        };
-        count(row.segment, working_velocity, time_step * row.traction, weights, balance);
+        count(row.segment, time_step * row.traction, rows.weight_of_row(k), solver.working_flow(rows, k), balance);
       }
   }
 
 
   template <int dim>
-  template <typename Velocity, typename Weights>
   Tensor<1, dim> CutCellContact<dim>::count(const unsigned int s,
-                                            const Velocity &velocity_of,
                                             const Tensor<1, dim> &force,
-                                            const Weights &weights,
+                                            const double of_momentum,
+                                            const Tensor<1, dim> &velocity,
                                             Budget<dim> &balance) const
   {
     if (force.norm_square() == 0.)
       return force;
     const CutFacet<dim> &segment = cut_cells->segments()[s];
-    const unsigned int *of_cell  = grid.nodes(segment.cell);
-    double of_momentum           = 0.;
-    Tensor<1, dim> velocity;
-    for (unsigned int i = 0; i < segment.shapes.size(); ++i)
-      {
-        const auto [weight, weight_of_momentum] = weights(i);
-        of_momentum += weight_of_momentum;
-        velocity += weight * velocity_of(of_cell[i]);
-      }
-    const Tensor<1, dim> given = of_momentum * force;
-    const double dissipation   = force * velocity;
+    const Tensor<1, dim> given   = of_momentum * force;
+    const double dissipation     = force * velocity;
     if (ObstacleBalance<dim> *obstacle = balance_of(s, balance))
       {
         const double work = -given * cut_cells->velocity(segment);

@@ -59,11 +59,10 @@ namespace scree
   {
     if (number_of_node[node] != none)
       return;
-    number_of_node[node] = nodes.size();
-    const double *values = field[node];
-    const double mass    = values[NodalField<dim>::mass];
-    const Tensor<1, dim> velocity =
-        mass > 0. ? vector_of<dim>(values + NodalField<dim>::velocity) : Tensor<1, dim>();
+    number_of_node[node]          = nodes.size();
+    const double *values          = field[node];
+    const double mass             = values[NodalField<dim>::mass];
+    const Tensor<1, dim> velocity = mass > 0. ? vector_of<dim>(values + NodalField<dim>::velocity) : Tensor<1, dim>();
     NodeRow mobility{};
     for (unsigned int a = 0; a < dim && mass > 0.; ++a)
       mobility[a] = 1. / mass;
@@ -218,7 +217,7 @@ namespace scree
                                   const double time_step,
                                   Budget<dim> &balance)
   {
-    const unsigned int n = grid.n_nodes_per_cell(), n_rows = rows.all.size();
+    const unsigned int n_rows = rows.all.size();
     begin(rows, field);
     find_steps(rows, time_step);
     last.resize(n_rows);
@@ -234,14 +233,11 @@ namespace scree
         find_motions(rows, extrapolated, time_step);
         for (unsigned int k = 0; k < n_rows; ++k)
           {
-            const GroundRow<dim> &row = rows.all[k];
-            NodeRow flow              = NodeRow{};
-            for (unsigned int i = 0; i < n; ++i)
-              flow += rows.weight(k, i) * motions[number_of_corner[k * n + i]];
-            const Tensor<1, dim> traction =
-                admissible<dim>(row, extrapolated[k] + steps[k] * (row.flow + to_vector<dim>(flow)));
-            extrapolated[k] = traction + onward * (traction - last[k]);
-            last[k]         = traction;
+            const GroundRow<dim> &row     = rows.all[k];
+            const Tensor<1, dim> flow     = row.flow + to_vector<dim>(flow_of_motions(rows, k));
+            const Tensor<1, dim> traction = admissible<dim>(row, extrapolated[k] + steps[k] * flow);
+            extrapolated[k]               = traction + onward * (traction - last[k]);
+            last[k]                       = traction;
           }
       }
     find_motions(rows, last, time_step);

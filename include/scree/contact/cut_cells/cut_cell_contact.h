@@ -3,11 +3,11 @@
 #define scree_contact_cut_cells_cut_cell_contact_h
 
 #include <scree/boundary/ground_gaps.h>
+#include <scree/contact/cut_cells/traction_solver.h>
 #include <scree/contact/rigid_surface.h>
 #include <scree/momentum/two_phase_momentum.h>
 #include <scree/pressure/ground_rows.h>
 
-#include <functional>
 #include <list>
 #include <vector>
 
@@ -82,11 +82,8 @@ namespace scree
                                const double mass_scaling,
                                const double time_step);
 
-    /// Books their tractions over the step.
-    /// @param working_velocity m/s, of a node of a row: with which the traction does work there
-    void count_rows(const std::function<dealii::Tensor<1, dim>(unsigned int node)> &working_velocity,
-                    const double time_step,
-                    Budget<dim> &balance);
+    /// Books their tractions over the step, as `solver` has found them.
+    void count_rows(const TractionSolver<dim> &solver, const double time_step, Budget<dim> &balance);
 
     /// Books the tractions of the rows over a step, once the nodes have moved; ghosts of `nodes` hold values.
     void count_rows(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &balance);
@@ -118,15 +115,14 @@ namespace scree
 
     void make_segments();
 
-    /// Books a force that soil or water has given to a segment, times its weights at the nodes, N s, and its work; what
-    /// of that is momentum.
-    /// @param velocity m/s, by node of the cell: with which the force does work
-    /// @param weights the same, and what of them counts as momentum
-    template <typename Velocity, typename Weights>
+    /// Books a force that soil or water has given to a segment, and its work; what of that is momentum, N s.
+    /// @param force N s, over the weights of the nodes
+    /// @param of_momentum sum of the weights that count as momentum
+    /// @param velocity sum of the weights times the velocities with which the force does work
     dealii::Tensor<1, dim> count(const unsigned int segment,
-                                 const Velocity &velocity,
                                  const dealii::Tensor<1, dim> &force,
-                                 const Weights &weights,
+                                 const double of_momentum,
+                                 const dealii::Tensor<1, dim> &velocity,
                                  Budget<dim> &balance) const;
 
     /// Calls `act(segment)` for the segments in a cell.
@@ -145,13 +141,13 @@ namespace scree
                  const MixtureNodes<dim> &nodes,
                  const double time_step);
 
-    /// A row of a segment, and the velocity, m/s, into the ground that it admits.
-    /// @param field of the phase
-    std::pair<GroundRow<dim>, dealii::Tensor<1, dim>> make_row(const unsigned int segment,
-                                                               const Phase phase,
-                                                               const bool is_unilateral,
-                                                               const NodalField<dim> &field,
-                                                               const double time_step) const;
+    /// A row of a segment, with the traction of the last solve.
+    GroundRow<dim> row_of(const unsigned int segment, const Phase phase) const;
+
+    /// The velocity, m/s, that a row admits; sets whether it holds.
+    /// @param velocity of the phase at the segment, m/s
+    dealii::Tensor<1, dim>
+    admissible_velocity(GroundRow<dim> &row, const dealii::Tensor<1, dim> &velocity, const double time_step) const;
 
     /// The force of add_viscous_force() at a segment, N.
     dealii::Tensor<1, dim> viscous_force(const unsigned int segment,
@@ -186,9 +182,9 @@ namespace scree
     GroundRows<dim> rows;
     dealii::TimerOutput &timer;
     const bool any_holds_water;
-    std::vector<unsigned int> holding;         // segments along which water does not slip in this step, ascending
-    std::vector<OfSegment> of_segments;        // by segment
-    std::vector<char> is_covered;              // the same: whether soil without water is in its cell
+    std::vector<unsigned int> holding;  // segments along which water does not slip in this step, ascending
+    std::vector<OfSegment> of_segments; // by segment
+    std::vector<char> is_covered;       // the same: whether soil without water is in its cell
   };
 } // namespace scree
 

@@ -35,10 +35,11 @@ namespace scree
     /// @param field solved without ground; ghosts hold values, before and after
     void solve(GroundRows<dim> &rows, NodalField<dim> &field, const double time_step, Budget<dim> &balance);
 
-    /// The velocity, m/s, of a node of a row with which the traction did work in the step, see working_velocity().
-    dealii::Tensor<1, dim> working_velocity_of(const unsigned int node) const
+    /// Flow at a row, m^dim/s, of the velocities with which the tractions did work in the step, see
+    /// working_velocity().
+    dealii::Tensor<1, dim> working_flow(const GroundRows<dim> &rows, const unsigned int row) const
     {
-      return to_vector<dim>(motions[number_of_node[node]]);
+      return to_vector<dim>(flow_of_motions(rows, row));
     }
 
   private:
@@ -65,17 +66,26 @@ namespace scree
                       const typename GroundRows<dim>::Vectors &tractions,
                       const double time_step);
 
+    NodeRow flow_of_motions(const GroundRows<dim> &rows, const unsigned int row) const
+    {
+      const unsigned int n = grid.n_nodes_per_cell();
+      NodeRow flow{};
+      for (unsigned int i = 0; i < n; ++i)
+        flow += rows.weight(row, i) * motions[number_of_corner[row * n + i]];
+      return flow;
+    }
+
     /// Writes the velocities to the field, where walls are not gone into, and books what they get.
     void write(NodalField<dim> &field, const double time_step, Budget<dim> &balance);
 
     const BackgroundGrid<dim> &grid;
     const Constraints<dim> &constraints;
     NodeMessages<dim> messages;
-    std::vector<unsigned int> number_of_node;  // of the grid's nodes; `none`: not there
+    std::vector<unsigned int> number_of_node;   // of the grid's nodes; `none`: not there
     std::vector<unsigned int> number_of_corner; // of the nodes of the rows, a row's behind each other
     std::vector<Node> nodes;
-    std::vector<NodeRow> motions, mobilities, forces; // by number: m/s, 1/kg along each axis, N on the ground
-    std::vector<double> steps;                        // by row
+    std::vector<NodeRow> motions, mobilities, forces;     // by number: m/s, 1/kg along each axis, N on the ground
+    std::vector<double> steps;                            // by row
     typename GroundRows<dim>::Vectors last, extrapolated; // tractions
   };
 } // namespace scree
