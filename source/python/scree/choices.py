@@ -262,8 +262,8 @@ SETTINGS = {"[factor of safety]": ("slopes/griffiths_lane", "AFLIP", "fixed"),
             "[loose saturated slope]": ("slopes/slope_saturated_loose_friction", "AFLIP", "friction (1)"),
             "[consolidation, small": ("consolidation/terzaghi", "AFLIP", "-"),
             "[consolidation, large": ("consolidation/large_strain_consolidation", "AFLIP", "-"), "[dam break][dam_break]": ("water/dam_break", "AFLIP", "free slip"),
-            "[impact][impact], impulse": ("columns/column_saturated", "AFLIP", "fixed"), "[infiltration]": ("seepage/saturated_rest", "AFLIP", "-"),
-            "[terrain]": ("terrain/mountain_dry", "AFLIP", "friction"), "[elastic waves]": ("dynamics/vibrating_bar", "TPIC", "-")}
+            "[impact][impact], impulse": ("columns/column_saturated", "AFLIP", "fixed"),
+            "[terrain]": ("terrain/mountain_dry", "AFLIP", "friction")}
 
 
 def settings():
