@@ -3,7 +3,8 @@
 
 A row has the page; the run folder in RESULTS; the file there, a table such as statistics or a log; the column and the time in s (empty: the last line)
 in a table, or a regular expression with one group in a log; a factor from SI to the unit on the page; the value as the page writes it; commit and date
-of the run (before 2026-11-29: of the page that has the value). A value holds within one unit of its last digit; zeros at the end of whole numbers do not count.
+of the run (before 2026-11-29: of the page that has the value). A value holds within one unit of its last digit; zeros at the end of whole
+numbers do not count.
 
 With RESULTS it compares every row whose run is there; with COMMIT it stores this commit and today's date for those that hold.
 """
