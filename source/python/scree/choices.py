@@ -262,8 +262,8 @@ SETTINGS = {"[factor of safety]": ("slopes/griffiths_lane", "AFLIP", "fixed"),
             "[loose saturated slope]": ("slopes/slope_saturated_loose_friction", "AFLIP", "friction (1)"),
             "[consolidation, small": ("consolidation/terzaghi", "AFLIP", "-"),
             "[consolidation, large": ("consolidation/large_strain_consolidation", "AFLIP", "-"), "[dam break][dam_break]": ("water/dam_break", "AFLIP", "free slip"),
-            "[impact][impact], impulse": ("columns/column_saturated", "AFLIP", "fixed"), "[infiltration]": ("seepage/saturated_rest", "AFLIP", "-"),
-            "[terrain]": ("terrain/mountain_dry", "AFLIP", "friction"), "[elastic waves]": ("dynamics/vibrating_bar", "TPIC", "-")}
+            "[impact][impact], impulse": ("columns/column_saturated", "AFLIP", "fixed"),
+            "[terrain]": ("terrain/mountain_dry", "AFLIP", "friction")}
 
 
 def settings():
@@ -271,7 +271,7 @@ def settings():
     for scene, (case, method, base) in SETTINGS.items():
         found = [row for row in accuracies() if row[0].startswith(scene)]
         name, _, _, cells, _, value, reference = found[0]
-        lines.append((name, f"`{case}`", method, base, cells, value, reference))
+        lines.append((name, f"`{case}`", method, base, cells, value, re.sub(" (of . sizes|by fit)", "", reference)))
     return table([("scene", "start from", "transfer", "base", "H/h for 5 %", "deviation at H/h", "against"), *lines])
 
 
@@ -422,8 +422,8 @@ def cost():
             "Compare costs within the table only, and use `--advise` for a case of your own.\n\n")
 
 
-MAKERS = {CHOICES: {"settings": settings, "points": points, "limits_of_g": limits_of_g},
-          DEFAULTS_PAGE: {"cost": cost, "accuracy": accuracy, "methods": methods, "remarks": remarks}}
+MAKERS = {CHOICES: {"settings": settings},
+          DEFAULTS_PAGE: {"cost": cost, "accuracy": accuracy, "methods": methods, "remarks": remarks, "points": points, "limits_of_g": limits_of_g}}
 
 
 def filled(page, text):
