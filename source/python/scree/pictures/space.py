@@ -17,7 +17,7 @@ from vtkmodules.vtkRenderingOpenGL2 import vtkOpenGLSphereMapper
 
 from scree.pictures import rigid
 from scree.pictures.display import offscreen_window
-from scree.pictures.plane import point_sides
+from scree.pictures.plane import blurred, point_sides
 
 GROUND, STRUCTURE, FLOOR, WATER = (0.86, 0.83, 0.77), (0.50, 0.52, 0.56), (0.87, 0.87, 0.86), (0.45, 0.67, 0.86)
 WIDTH_OF_FILL = 0.5  # cells; closes gaps of stretched material of one and a half cells
@@ -134,17 +134,6 @@ def _solid(coordinates, level_set):
     """The closed surface of what is rigid in the lattice."""
     bound = 2 * (coordinates[0][1] - coordinates[0][0])
     return _contour(coordinates, np.clip(level_set, -bound, bound), 0., bound)
-
-
-def _blurred(values, width):
-    """Convolution of an array, indexed z, y, x, with a Gaussian of `width` nodes; nothing is outside of it."""
-    reach = int(np.ceil(3 * width))
-    weights = np.exp(-0.5 * (np.arange(-reach, reach + 1) / width) ** 2)
-    weights /= weights.sum()
-    for axis in range(3):
-        padded = np.pad(values, [(reach, reach) if one == axis else (0, 0) for one in range(3)])
-        values = sum(weight * np.take(padded, range(start, start + values.shape[axis]), axis) for start, weight in enumerate(weights))
-    return values
 
 
 def _actor(surface, colour=None, ambient=0.32):
@@ -335,12 +324,12 @@ class Scene:
         def spread(weights):
             """The weights of the points, on the lattice."""
             shape = tuple(numbers[::-1])
-            return _blurred(np.bincount(np.ravel_multi_index(index, shape), weights, np.prod(shape)).reshape(shape), width)
+            return blurred(np.bincount(np.ravel_multi_index(index, shape), weights, np.prod(shape)).reshape(shape), width)
 
         volumes = (point_sides(points, self.box)[inside] / spacing) ** 3
         filled = spread(volumes)
         colour = {f"colour {part}": spread(volumes * colours[inside, part]) / np.maximum(filled, 1e-12) for part in range(3)}
-        filled = filled / np.maximum(_blurred(is_open.astype(float), width), 0.25)
+        filled = filled / np.maximum(blurred(is_open.astype(float), width), 0.25)
         if surfaces:
             # The surface ends half a node below the ground; cut faces must not cover those of the ground.
             filled = np.minimum(filled, LEVEL * (1.5 + np.min([surface.level_set for surface in surfaces], axis=0) / spacing))
