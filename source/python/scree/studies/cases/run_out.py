@@ -17,7 +17,8 @@ import math
 
 import numpy as np
 
-from scree.studies.charts import Curves, name_lines
+from scree.pictures.tables import name_lines
+from scree.studies.charts import Curves
 from scree.studies.study import Claim, Study, Variant
 
 FIXED, FRICTION, LOW_PIC = "fixed", "friction", "friction, PIC rate 1/s"

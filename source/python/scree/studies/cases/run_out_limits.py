@@ -34,7 +34,8 @@ import re
 import numpy as np
 
 from scree.studies.cases.run_out import Limit
-from scree.studies.charts import Curves, name_lines
+from scree.pictures.tables import name_lines
+from scree.studies.charts import Curves
 from scree.studies.study import Claim, Study, Variant, reference_rows
 
 GRAVITY = 9.81

@@ -25,7 +25,8 @@ import numpy as np
 
 from scree.studies.cases.run_out import Limit
 from scree.studies.cases.run_out_limits import HEIGHT, MASS, TIP, TRANSFERS, depth, front_of_depth, halving_of
-from scree.studies.charts import Curves, name_lines
+from scree.pictures.tables import name_lines
+from scree.studies.charts import Curves
 from scree.studies.study import Claim, Study, Variant
 
 COLUMN, SLOPE = "column", "slope"
