@@ -19,6 +19,7 @@ import numpy as np
 
 from scree.pictures.tables import name_lines
 from scree.studies.charts import Curves
+from scree.studies.measures import grouped
 from scree.studies.study import Claim, Study, Variant
 
 FIXED, FRICTION, LOW_PIC = "fixed", "friction", "friction, PIC rate 1/s"
@@ -80,11 +81,7 @@ def variant(scene, soil, treatment, cells_per_metre):
 
 
 def curves(rows):
-    """{(scene, soil, treatment): rows from the largest cells to the smallest}."""
-    found = {}
-    for row in sorted(rows, key=lambda row: -row["h"]):
-        found.setdefault((row["scene"], row["soil"], row["treatment"]), []).append(row)
-    return found
+    return grouped(rows, "scene", "soil", "treatment")
 
 
 def fit(h, values, order):

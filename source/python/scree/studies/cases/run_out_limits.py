@@ -36,6 +36,7 @@ import numpy as np
 from scree.studies.cases.run_out import Limit
 from scree.pictures.tables import name_lines
 from scree.studies.charts import Curves
+from scree.studies.measures import grouped
 from scree.studies.study import Claim, Study, Variant, reference_rows
 
 GRAVITY = 9.81
@@ -113,11 +114,7 @@ def measure(run):
 
 
 def curves(rows):
-    """{(a, transfer, friction, angle, points, grains): rows from the largest cells to the smallest}."""
-    found = {}
-    for row in sorted(rows, key=lambda row: row["cells"]):
-        found.setdefault(tuple(row[name] for name in ("a", "transfer", "friction", "angle", "points", "grains")), []).append({**row, "h": 1 / row["cells"]})
-    return found
+    return grouped(rows, "a", "transfer", "friction", "angle", "points", "grains")
 
 
 def halving_of(group, name, cells):

@@ -27,6 +27,7 @@ from scree.studies.cases.run_out import Limit
 from scree.studies.cases.run_out_limits import HEIGHT, MASS, TIP, TRANSFERS, depth, front_of_depth, halving_of
 from scree.pictures.tables import name_lines
 from scree.studies.charts import Curves
+from scree.studies.measures import grouped
 from scree.studies.study import Claim, Study, Variant
 
 COLUMN, SLOPE = "column", "slope"
@@ -62,11 +63,7 @@ def measure(run):
 
 
 def curves(rows):
-    """{(scene, base, transfer): rows from the largest cells to the smallest}."""
-    found = {}
-    for row in sorted(rows, key=lambda row: row["cells"]):
-        found.setdefault((row["scene"], row["base"], row["transfer"]), []).append({**row, "h": 1 / row["cells"]})
-    return found
+    return grouped(rows, "scene", "base", "transfer")
 
 
 def number(limit):
