@@ -11,7 +11,7 @@ import PIL.Image
 from matplotlib import animation
 
 from scree import results
-from scree.pictures import fields, frame, plane, rigid
+from scree.pictures import fields, plane, rigid
 
 FRAMES_PER_SECOND = 10
 
@@ -96,7 +96,7 @@ def _pictures(run, times, collection):
 def _fitted(run, box, pictures, collection):
     """The part of the box that the pictures and the water or soil around them reach."""
     others = [other_points(run, points.time, collection) for points in pictures]
-    return frame.fitted(box, pictures + [points for points in others if points])
+    return plane.fitted(box, pictures + [points for points in others if points])
 
 
 def _scale(pictures, name, limits):

@@ -177,6 +177,12 @@ def energy_gain(run, energy=None):
     return float(fall / scale) if np.isfinite(fall) else np.inf
 
 
+def lost_energy(run):
+    """Numerical dissipation over the fall of the potential energy, both from start to end."""
+    potential = run.statistics("Potential energy (J)")
+    return run.statistics("Numerical dissipation (J)")[-1] / (potential[0] - potential[-1])
+
+
 def mean_oscillation(run, column="p oscillation (-)"):
     """Time mean of an oscillation of the statistics over its rows after the first; 0 without such rows."""
     values = run.statistics(column) if has_rows(run) else []

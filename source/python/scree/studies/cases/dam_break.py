@@ -14,6 +14,7 @@ import numpy as np
 
 from scree.studies.cases import dry_slope
 from scree.studies.charts import WorkPrecision
+from scree.studies.measures import lost_energy
 from scree.studies.precision import DEFAULTS, LimitFit, at_finest, costs, curve, ratio, table
 from scree.studies.study import Claim, Study, axis, product
 
@@ -53,10 +54,9 @@ def lengths(run):
 
 
 def measure(run):
-    released = run.statistics("Potential energy (J)")[0] - run.statistics("Potential energy (J)")[-1]
     return {**dry_slope.errors(run, lengths(run), lengths(run.reference), 0.19), "tip at the end, m": run.statistics("Water tip (m)")[-1],
             "largest volume error": np.max(run.statistics("Volume error (-)")),
-            "numerical dissipation": run.statistics("Numerical dissipation (J)")[-1] / released,
+            "numerical dissipation": lost_energy(run),
             "CG iterations": np.mean(run.statistics("CG iterations per step")[1:]),
             "preconditioners a step": run.statistics("Preconditioners built")[-1] / run.statistics("Step")[-1]}
 

@@ -17,7 +17,7 @@ import math
 import numpy as np
 
 from scree.studies.charts import WorkPrecision
-from scree.studies.measures import energy_gain
+from scree.studies.measures import energy_gain, lost_energy
 from scree.studies.precision import DEFAULTS, LimitFit, at_finest, costs, curve, ratio, table
 from scree.studies.study import Claim, Study, axis, product
 
@@ -57,7 +57,7 @@ def measure(run):
     released = run.statistics("Potential energy (J)")[0] - run.statistics("Potential energy (J)")[-1]
     return {**errors(run, own, lengths(run.reference), 0.45), "front 99 % at the end, m": own[1, -1],
             "mean oscillation": np.mean(run.statistics("Stress oscillation (-)")[1:]),
-            "numerical dissipation": run.statistics("Numerical dissipation (J)")[-1] / released, "energy gained": energy_gain(run, released)}
+            "numerical dissipation": lost_energy(run), "energy gained": energy_gain(run, released)}
 
 
 def verdict(rows):
