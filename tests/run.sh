@@ -14,7 +14,7 @@ fi
 
 # For the tests alone: the layout of sources and scripts, docstrings and the site of the documentation.
 # shellcheck disable=SC2034  # read in setup.sh
-test_packages="clang-format shellcheck pyflakes3 doxygen python3-sphinx python3-myst-parser python3-sphinx-rtd-theme libjs-mathjax python3-sphinxcontrib.bibtex python3-pandas python3-scipy snakemake"
+test_packages="clang-format shellcheck pyflakes3 doxygen python3-sphinx python3-myst-parser python3-sphinx-rtd-theme libjs-mathjax python3-sphinxcontrib.bibtex python3-pandas snakemake"
 # shellcheck source=doc/setup.sh
 . "$(dirname -- "$0")/../doc/setup.sh"
 

@@ -293,46 +293,37 @@ namespace scree
 
 
   template <int dim>
-  void BalanceChecks<dim>::look(const std::list<SoilBody<dim>> &bodies,
-                                const std::list<WaterPhase<dim>> &water,
-                                const RunBalance<dim> &local,
-                                const double time)
+  void BalanceChecks<dim>::look(const Snapshot<dim> &now)
   {
-    const MPI_Comm communicator  = grid.communicator();
-    const RunBalance<dim> totals = local.sum_over_ranks(communicator);
-    PointSums<dim> sums(bodies, water, gravity, communicator);
-    sums.kinetic *= mass_scaling;
-    sums.momentum *= mass_scaling;
-    const double energy        = sums.kinetic + sums.potential + sums.elastic;
-    const double own_potential = sums.potential + totals.lost_energy - totals.entered_energy;
+    const RunBalance<dim> &totals = now.totals;
+    const Budget<dim> &balance    = totals.balance;
+    const double kinetic          = mass_scaling * now.sums.kinetic;
+    const double own_potential    = now.sums.potential + totals.lost_energy - totals.entered_energy;
     if (!has_start)
       {
         has_start       = true;
-        soil_mass       = sums.moving_mass + totals.lost_mass - totals.entered_mass;
-        water_mass      = sums.water_mass + totals.lost_water_mass - totals.entered_water_mass;
-        start_momentum  = sums.momentum - totals.impulse();
-        start_energy    = energy + totals.energy_taken();
-        start_kinetic   = sums.kinetic;
+        soil_mass       = now.sums.moving_mass + totals.lost_mass - totals.entered_mass;
+        water_mass      = now.sums.water_mass + totals.lost_water_mass - totals.entered_water_mass;
+        start_kinetic   = kinetic;
         start_potential = least_potential = own_potential;
-        start_time = last_time = time;
+        start_elastic                     = now.sums.elastic;
+        start_time = last_time = now.time;
       }
-    const auto look_at_mass = [&](const double start, const double now, const double lost, const double entered) {
+    const auto look_at_mass = [&](const double start, const double mass, const double lost, const double entered) {
       if (const double all = start + entered; all > 0.)
-        mass_error = worse(mass_error, std::abs(now + lost - entered - start) / all);
+        mass_error = worse(mass_error, std::abs(mass + lost - entered - start) / all);
     };
-    look_at_mass(soil_mass, sums.moving_mass, totals.lost_mass, totals.entered_mass);
-    look_at_mass(water_mass, sums.water_mass, totals.lost_water_mass, totals.entered_water_mass);
+    look_at_mass(soil_mass, now.sums.moving_mass, totals.lost_mass, totals.entered_mass);
+    look_at_mass(water_mass, now.sums.water_mass, totals.lost_water_mass, totals.entered_water_mass);
 
-    momentum_residual    = worse(momentum_residual, (sums.momentum - start_momentum - totals.impulse()).norm());
-    const double inertia = mass_scaling * (sums.moving_mass + sums.water_mass); // kg
-    momentum_scale =
-        std::max({ momentum_scale, totals.balance.body_impulse.norm(), std::sqrt(2. * inertia * sums.kinetic) });
+    momentum_residual    = worse(momentum_residual, now.momentum_residual());
+    const double inertia = mass_scaling * (now.sums.moving_mass + now.sums.water_mass); // kg
+    momentum_scale       = std::max({ momentum_scale, balance.body_impulse.norm(), std::sqrt(2. * inertia * kinetic) });
 
-    const Budget<dim> &balance = totals.balance;
-    least_potential            = std::min(least_potential, own_potential);
+    least_potential = std::min(least_potential, own_potential);
     largest_work =
         std::max(largest_work, std::abs(balance.load_work + balance.correction_work + balance.obstacle_energy()));
-    dissipation = start_energy - energy - totals.energy_taken();
+    dissipation = now.numerical_dissipation();
     // What a channel gives back is a gain, too: the numerical dissipation does not show it. Plastic dissipation is
     // left out: with hardening it can fall. So are walls with an inflow: they push what enters.
     const bool has_entered = totals.entered_mass + totals.entered_water_mass > 0.;
@@ -358,9 +349,9 @@ namespace scree
       }
 
     const double work_now = start_potential - own_potential + balance.load_work + balance.obstacle_energy();
-    work_in_time += 0.5 * (work + work_now) * (time - last_time);
+    work_in_time += 0.5 * (work + work_now) * (now.time - last_time);
     work      = work_now;
-    last_time = time;
+    last_time = now.time;
     motion    = balance.motion;
   }
 

@@ -245,13 +245,13 @@ namespace scree
 
 
   template <int dim>
-  void Statistics<dim>::collect(const std::list<SoilBody<dim>> &bodies,
-                                const std::list<WaterPhase<dim>> &water,
-                                const RunBalance<dim> &local,
-                                const double time,
-                                const unsigned long long step,
-                                const double time_step,
-                                const UpdateReport &last_step)
+  Snapshot<dim> Statistics<dim>::collect(const std::list<SoilBody<dim>> &bodies,
+                                         const std::list<WaterPhase<dim>> &water,
+                                         const RunBalance<dim> &local,
+                                         const double time,
+                                         const unsigned long long step,
+                                         const double time_step,
+                                         const UpdateReport &last_step)
   {
     const std::vector<double> fronts{ 0.90, 0.99, 0.995 };
     const Snapshot<dim> now{ grid,
@@ -272,7 +272,7 @@ namespace scree
     if (!history.has_start)
       {
         history.has_start      = true;
-        history.start_momentum = now.momentum() - now.impulse();
+        history.start_momentum = now.momentum() - now.totals.impulse();
         history.start_energy   = now.energy();
       }
     history.balance.obstacles.resize(now.totals.balance.obstacles.size());
@@ -280,6 +280,7 @@ namespace scree
     history.step    = step;
     history.time    = time;
     history.balance = now.totals.balance;
+    return now;
   }
 
 

@@ -12,13 +12,6 @@ namespace scree
 {
   namespace
   {
-    template <int dim>
-    double numerical_dissipation(const Snapshot<dim> &now)
-    {
-      return now.before.start_energy - now.energy() - now.totals.energy_taken();
-    }
-
-
     const RegisterColumns
         run_columns(ColumnTopic::run,
                     Always(),
@@ -28,15 +21,13 @@ namespace scree
                     Column{ "Points", "", OF_NOW(now.sums.soil_points) },
                     Column{ "Mass", "kg", OF_NOW(now.sums.soil_mass) },
                     Column{ "Momentum", "N s", OF_NOW(now.sums.momentum) },
-                    Column{ "Momentum residual",
-                            "N s",
-                            OF_NOW((now.momentum() - now.before.start_momentum - now.impulse()).norm()) },
+                    Column{ "Momentum residual", "N s", OF_NOW(now.momentum_residual()) },
                     Column{ "Kinetic energy", "J", OF_NOW(now.sums.kinetic) },
                     Column{ "Potential energy", "J", OF_NOW(now.sums.potential) },
                     Column{ "Elastic energy", "J", OF_NOW(now.sums.elastic) },
                     Column{ "Plastic dissipation", "J", OF_NOW(now.totals.material.plastic_dissipation) },
                     Column{ "Wall dissipation", "J", OF_NOW(now.totals.balance.wall_dissipation) },
-                    Column{ "Numerical dissipation", "J", OF_NOW(numerical_dissipation(now)) });
+                    Column{ "Numerical dissipation", "J", OF_NOW(now.numerical_dissipation()) });
 
     const RegisterColumns lost_columns(ColumnTopic::lost,
                                        Always(),

@@ -79,9 +79,7 @@ def check_all():
     # Under a load, with k that falls to a sixteenth: the end does not know k, and half the spacing changes little.
     tight = Mud(1., 1e6, .4, 1e-3, load=4e5, grain_density=1000., kozeny_carman=True)
     times = [tight.time(t) for t in (0.5, 2, 200)]
-    coarse, fine = (consolidate(tight, times, *n) for n in ((50, 200), (200, 400)))
-    check(failures, "Kozeny-Carman: derivative of the mobility by J",
-          max(abs((tight.mobility(j + 1e-5)[0] - tight.mobility(j - 1e-5)[0]) / 2e-5 / tight.mobility(j)[1] - 1) for j in (.75, .9, 1)), 1e-8)
+    coarse, fine = (consolidate(tight, times, n) for n in (50, 200))
     check(failures, "Kozeny-Carman, load of 0.4 M: final settlement",
           abs(fine[-1].settlement / final_settlement(tight) - 1), 1e-4)
     check(failures, "the same: settlement at T_v = 0.5 and 2 with 50 and 200 cells, relative difference",
@@ -91,7 +89,7 @@ def check_all():
 
     mud = Mud(1., oedometric_modulus(2e4, .2), .5, 1e-2)
     settlement = final_settlement(mud)
-    coarse, fine = (consolidate(mud, [mud.time(t) for t in (0.25, 1, 20)], *n) for n in ((50, 200), (200, 400)))
+    coarse, fine = (consolidate(mud, [mud.time(t) for t in (0.25, 1, 20)], n) for n in (50, 200))
     check(failures, "prm/consolidation/large_strain_consolidation.prm: settlement at T_v = 20 is the exact final one",
           abs(fine[-1].settlement / settlement - 1), 1e-4)
     end = fine[-1]

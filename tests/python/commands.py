@@ -255,7 +255,7 @@ def check_others(commands):
     commands.refuses("^scree-terrain-bank: --seeds all: write the first and the last", "scree-terrain-bank", "bank", "--seeds", "all")
     folders = {**commands.environment, "PYTHONPATH": str(ROOT / "source" / "python")}
     done = subprocess.run([sys.executable, "-S", "-m", "scree", "render", "run"], capture_output=True, text=True, check=False, env=folders)  # -S: no installed packages
-    if done.returncode != 1 or not re.search("^scree: .* has no module .* Install numpy, matplotlib and vtk", done.stderr):
+    if done.returncode != 1 or not re.search("^scree: .* has no module .* Install numpy, scipy, matplotlib and vtk", done.stderr):
         commands.faults.append(f"without packages: {done.returncode}, {done.stderr}")
 
 

@@ -9,8 +9,8 @@ import sys
 
 import numpy as np
 
-from scree import command, variants
-from scree.fit import laboratory, problem, runs, solution
+from scree import command, results, variants
+from scree.fit import laboratory, problem, solution
 
 PROGRAM = sys.argv[1]
 NOR_SAND = {"Nor-Sand/Initial specific volume": 1.65}
@@ -41,7 +41,7 @@ def synthetic(name, path, entries, end, columns, noise, n_rows=60, seed=1):
         text = variants.set_entry(text, entry, str(value))
     write(f"{name}.prm", text + "\n")
     subprocess.run([PROGRAM, f"{name}.prm"], check=True, stdout=subprocess.DEVNULL)
-    truth, random = runs.read_table(pathlib.Path("truth", name, "table.txt")), np.random.default_rng(seed)
+    truth, random = results.read_element_table(pathlib.Path("truth", name, "table.txt")), np.random.default_rng(seed)
     x = laboratory.law_values(columns[0], truth, "engineering")
     rows, section = [np.linspace(x[0], x[-1], n_rows)], f'[tests.{name}]\ncase = "{name}.prm"\ndata = "{name}.csv"\n[tests.{name}.columns]\n'
     for column in columns[1:]:

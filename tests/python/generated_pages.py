@@ -9,7 +9,7 @@
 import re
 import sys
 
-from scree import benchmarks, case_times, choices
+from scree import benchmarks, choices
 from scree.command import ROOT
 
 
@@ -84,8 +84,8 @@ def check_choices():
 
 
 def faults_of_times(text):
-    if case_times.filled(text) != text:
-        yield "prm/README.md is not current. Run PYTHONPATH=source/python python3 -m scree.case_times."
+    if choices.with_times(text) != text:
+        yield "prm/README.md is not current. Run PYTHONPATH=source/python python3 -m scree.choices."
     listed = re.findall(r"^\| `([\w-]+)` \|", text, re.MULTILINE)
     for path in sorted((ROOT / "prm").rglob("*.prm")):
         if listed.count(path.stem) != 1:
@@ -93,11 +93,11 @@ def faults_of_times(text):
 
 
 def check_times():
-    text = case_times.PAGE.read_text(encoding="utf-8")
+    text = choices.TIMES.read_text(encoding="utf-8")
     found = list(faults_of_times(text))
     if not list(faults_of_times(text.replace("| ~", "| ~1", 1))):
         found.append("A page with another time passes.")
-    print(f"{len(case_times.ROW.findall(text))} rows")
+    print(f"{len(choices.ROW.findall(text))} rows")
     return found
 
 

@@ -92,18 +92,9 @@ def test_maps():
     assert pathlib.Path("maps.png").stat().st_size > 10000
 
 
-def test_colours():
-    colours = np.array([[0., 0., value] for value in range(256)] + [[255., 0., 0.], [250., 0., 0.]])
-    palette, nearest = maps.reduced(colours, np.array([100] * 256 + [1, 1]), 64)
-    assert len(palette) == 64 and np.abs(palette[nearest] - colours).max() <= 8
-    palette, nearest = maps.reduced(colours[:40], np.ones(40))
-    np.testing.assert_array_equal(palette[nearest], colours[:40])
-
-
 shutil.rmtree("run", ignore_errors=True)
 pathlib.Path("run/maps").mkdir(parents=True, exist_ok=True)
 pathlib.Path("run/parameters.prm").write_text(CASE, encoding="utf-8")
 test_expressions()
-test_colours()
 test_ground()
 test_maps()

@@ -12,7 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
-from scree.pictures import fields, frame, plane, rigid  # noqa: E402
+from scree.pictures import fields, plane, rigid  # noqa: E402
 from scree.results import Box, Points  # noqa: E402
 
 CELL = 0.1
@@ -65,7 +65,7 @@ def check_areas():
         assert abs(area / stretch - 1) < 0.02, f"stretch {stretch}: area {area}"
         x = np.meshgrid(*pixels.centres)[0]
         assert np.max(np.abs(points.positions[nearest, 0] - x)[covered]) < 0.6 * stretch / 30 + pixels.width
-    shown = frame.fitted(box(2), [lattice(2)])
+    shown = plane.fitted(box(2), [lattice(2)])
     assert np.allclose(shown.lower, 0.) and np.allclose(shown.upper, [1 - 0.5 / 30 + 0.3] * 2)
     figure, axes = plt.subplots()
     plane.draw_points(axes, lattice(2), box(2), "plastic_shear_strain", (0., 1.))

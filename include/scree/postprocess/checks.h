@@ -125,13 +125,8 @@ namespace scree
     {
     }
 
-    /// Compares the points with the start, which is the first look. Collective.
-    /// @param totals of this rank
-    /// @param time s
-    void look(const std::list<SoilBody<dim>> &bodies,
-              const std::list<WaterPhase<dim>> &water,
-              const RunBalance<dim> &totals,
-              const double time);
+    /// Compares a row of the statistics with the start, which is the first one.
+    void look(const Snapshot<dim> &now);
 
     /// The worst of all looks. What does not apply is left out.
     std::vector<CheckResult> results() const;
@@ -141,8 +136,8 @@ namespace scree
     void serialize(Archive &archive, const unsigned int)
     {
       archive &has_start &soil_mass &water_mass &mass_error;
-      archive &start_momentum &momentum_residual &momentum_scale;
-      archive &start_energy &start_kinetic &start_potential &least_potential &largest_work;
+      archive &momentum_residual &momentum_scale;
+      archive &start_kinetic &start_potential &start_elastic &least_potential &largest_work;
       archive &dissipation &largest_dissipations &gain &gain_channel &start_time &last_time &work &work_in_time &motion;
     }
 
@@ -161,9 +156,8 @@ namespace scree
     double released_energy() const
     {
       // Motion and elasticity of the start, fall, work. Scenes at rest release next to nothing.
-      const double stored   = start_energy - start_kinetic - start_potential; // elastic
       const double set_free = start_kinetic + start_potential - least_potential + largest_work;
-      return set_free > least_energy() || gravity.norm() == 0. ? set_free + stored : 0.;
+      return set_free > least_energy() || gravity.norm() == 0. ? set_free + start_elastic : 0.;
     }
 
     const BackgroundGrid<dim> &grid;
@@ -171,16 +165,15 @@ namespace scree
     const bool energy_is_closed;
     const double mass_scaling;
 
-    bool has_start    = false;
-    double soil_mass  = 0; // at the start, kg
-    double water_mass = 0;
-    double mass_error = 0; // largest, relative
-    dealii::Tensor<1, dim> start_momentum;
+    bool has_start           = false;
+    double soil_mass         = 0; // at the start, kg
+    double water_mass        = 0;
+    double mass_error        = 0; // largest, relative
     double momentum_residual = 0; // largest, N s
     double momentum_scale    = 0; // N s
-    double start_energy      = 0; // kinetic, potential and elastic, J
-    double start_kinetic     = 0;
+    double start_kinetic     = 0; // J
     double start_potential   = 0;
+    double start_elastic     = 0;
     double least_potential   = 0;             // with that of what has left, without that of what has entered
     double largest_work      = 0;             // of loads, obstacles and volume correction, J
     double dissipation       = 0;             // numerical, now, J

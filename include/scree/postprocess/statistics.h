@@ -200,10 +200,16 @@ namespace scree
       return further.mass_scaling * sums.momentum;
     }
 
-    /// What soil and water have been given since the start, N s.
-    dealii::Tensor<1, dim> impulse() const
+    /// What the impulses since the start do not explain of the momentum, N s.
+    double momentum_residual() const
     {
-      return totals.impulse();
+      return (momentum() - before.start_momentum - totals.impulse()).norm();
+    }
+
+    /// What known losses and work since the start do not explain of the energy, J.
+    double numerical_dissipation() const
+    {
+      return before.start_energy - energy() - totals.energy_taken();
     }
 
     /// Mean of the steps since the last row of what grows with each; 0 without a step.
@@ -340,13 +346,14 @@ namespace scree
 
     /// Makes a row: of soil and water together, of the soil if there is any, and of `water` unless it is empty.
     /// Collective.
-    void collect(const std::list<SoilBody<dim>> &bodies,
-                 const std::list<WaterPhase<dim>> &water,
-                 const RunBalance<dim> &totals,
-                 const double time,
-                 const unsigned long long step,
-                 const double time_step,
-                 const UpdateReport &last_step);
+    /// @return what the row is of; its `before` has this row already
+    Snapshot<dim> collect(const std::list<SoilBody<dim>> &bodies,
+                          const std::list<WaterPhase<dim>> &water,
+                          const RunBalance<dim> &totals,
+                          const double time,
+                          const unsigned long long step,
+                          const double time_step,
+                          const UpdateReport &last_step);
 
     /// Throws if a number of the last row, of a `time` in s, is none.
     void require_numbers(const double time) const;

@@ -66,10 +66,9 @@ namespace scree
 
       if (row_is_due || picture_is_due || output_times.checkpoint_is_due(time))
         folder.require_presence();
-      if (row_is_due && checks.look(scene.bodies, scene.water, state.totals.n_lost, time, state.step, at_start_or_end))
-        balances.look(scene.bodies, scene.water, state.totals, time);
       if (row_is_due)
-        write_row(state);
+        write_row(state,
+                  checks.look(scene.bodies, scene.water, state.totals.n_lost, time, state.step, at_start_or_end));
       else if (picture_is_due)
         maps.sample(scene.bodies, time);
       if (picture_is_due)
@@ -77,10 +76,13 @@ namespace scree
     }
 
     /// Output of the state as it is. Collective.
-    void write_row(const RunState<dim> &state)
+    /// @param is_checked whether its balances are compared with the start
+    void write_row(const RunState<dim> &state, const bool is_checked = false)
     {
-      statistics.collect(
+      const Snapshot<dim> now = statistics.collect(
           scene.bodies, scene.water, state.totals, state.time, state.step, state.time_step, state.last_update);
+      if (is_checked)
+        balances.look(now);
       rows.append(statistics.columns(), { statistics.values() });
       probes.write_rows(probed_state(state, scheme.water_view().get()));
       maps.sample(scene.bodies, state.time);

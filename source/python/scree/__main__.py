@@ -11,8 +11,8 @@ def main():
     try:
         module = importlib.import_module("scree." + sys.argv.pop(1))
     except ModuleNotFoundError as missing:
-        sys.exit(f"scree: {sys.executable} has no module {missing.name}. Install numpy, matplotlib and vtk for it, and scipy "
-                 "for scree-scenarios and scree-element --fit, which need Python 3.11; in Debian: python3-numpy, python3-matplotlib, python3-vtk9 and python3-scipy.")
+        sys.exit(f"scree: {sys.executable} has no module {missing.name}. Install numpy, scipy, matplotlib and vtk for it; "
+                 "in Debian: python3-numpy, python3-scipy, python3-matplotlib and python3-vtk9.")
     module.main()
 
 

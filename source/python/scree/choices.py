@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Tables and lists of numbers of doc/choosing.md and doc/studies/defaults.md, from the tables of the studies and doc/verification/benchmarks.csv.
+"""Tables and lists of numbers of doc/choosing.md and doc/studies/defaults.md, from the tables of the studies and doc/verification/benchmarks.csv; times
+of prm/README.md, the last column of its tables, from the study `advice`.
 
 PYTHONPATH=source/python python3 -m scree.choices
 
@@ -15,9 +16,12 @@ from scree import benchmarks
 from scree.command import ROOT
 from scree.studies import run as studies
 from scree.studies.cases import regimes, run_out, run_out_limits, saturated_run_out_limits, strength_reduction
+from scree.studies.pages import table as lines_of
 from scree.studies.precision import DEFAULTS, LimitFit, at_finest, curve, ratio
+from scree.variants import read_entries
 
 CHOICES, DEFAULTS_PAGE = ROOT / "doc" / "choosing.md", ROOT / "doc" / "studies" / "defaults.md"
+TIMES, ROW = ROOT / "prm" / "README.md", re.compile(r"^(\| `([\w-]+)` \|.*\| )([^|]*)( \|)$", re.MULTILINE)
 BLOCK = re.compile(r"(<!-- numbers: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 GOOD, LIMITED = 0.05, 0.2  # largest deviations of these marks
 RATIOS = 1.2, 3.  # and largest ratios to the recommended method
@@ -194,10 +198,7 @@ def peak_factors():
 
 
 def table(lines):
-    head, *body = lines
-    text = [f"| {' | '.join(cells)} |" for cells in (head, *body)]
-    text.insert(1, "|" + "---|" * len(head))
-    return "\n" + "\n".join(text) + "\n\n"
+    return "\n" + "\n".join(lines_of(lines)) + "\n\n"
 
 
 def factors():
@@ -422,6 +423,52 @@ def cost():
             "Compare costs within the table only, and use `--advise` for a case of your own.\n\n")
 
 
+# Times of the cases --------------------------------------------------------------------------------------------------
+
+
+# Processor time of whole runs, s; with other programs on the machine.
+BY_HAND = {"quickstart": 30, "first_slope": 3, "griffiths_lane": 20, "griffiths_lane_water": 38, "phreatic": 6, "vertical_cut": 9, "biaxial": 2,
+           "gully_dry": 5400, "mountain_dry": 7, "mountain_saturated": 22, "mountain_outline": 5, "acheron": 31, "entrainment": 3, "debris_flow": 9,
+           "slope_jefferies_been": 6, "cut": 40, "graded_slope": 45, "quick_clay": 35, "mud": 32, "steady_dam": 4, "earth_dam": 1,
+           "capillary_fringe": 1, "green_ampt": 1, "rain": 17, "wet_cut": 8}
+# The same of a first part: processor time, s, and its length, s.
+PARTS_BY_HAND = {"slope_loose": (27.8, 3.19), "slope_loose_fine": (53.9, 0.8)}
+
+
+def rounded(seconds):
+    """Two digits above 10 s, whole seconds below, at least 1 s."""
+    if seconds < 10:
+        return f"{max(1, round(seconds))}"
+    return f"{float(f'{seconds:.2g}'):,.0f}".replace(",", " ") if seconds >= 1e4 else f"{float(f'{seconds:.2g}'):.0f}"
+
+
+def time_of(name, rows):
+    """The last cell of a case; None for a case of scree-element."""
+    path, = (ROOT / "prm").rglob(f"{name}.prm")
+    entries = read_entries(path)
+    if "Path" in entries:
+        return None
+    if name in PARTS_BY_HAND:
+        seconds, simulated = PARTS_BY_HAND[name]
+        return f"~{rounded(seconds * float(entries['End time']) / simulated)} *"
+    if name in BY_HAND or name not in rows:
+        return f"{BY_HAND[name]} *" if name in BY_HAND else "-"
+    row = rows[name]
+    if row["whole"]:
+        return rounded(row["core-seconds"])
+    return f"~{rounded(row['core-seconds'] * float(entries['End time']) / row['simulated'])}"
+
+
+def with_times(text):
+    """The page with its times made again. Of a case whose first part was run it is "~" and the time in proportion; runs by hand have "*"."""
+    times = {row["case"]: row for row in rows("advice")}
+
+    def cell(match):
+        time = time_of(match.group(2), times)
+        return match.group() if time is None else match.group(1) + time + match.group(4)
+    return ROW.sub(cell, text)
+
+
 MAKERS = {CHOICES: {"settings": settings},
           DEFAULTS_PAGE: {"cost": cost, "accuracy": accuracy, "methods": methods, "remarks": remarks, "points": points, "limits_of_g": limits_of_g}}
 
@@ -434,6 +481,7 @@ def filled(page, text):
 def main():
     for page in MAKERS:
         page.write_text(filled(page, page.read_text(encoding="utf-8")), encoding="utf-8")
+    TIMES.write_text(with_times(TIMES.read_text(encoding="utf-8")), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -24,10 +24,10 @@ import matplotlib.pyplot as plt
 import matplotlib.ticker
 import matplotlib.transforms
 import numpy as np
-import PIL.Image
 
 from scree import results, terrain, variants
 from scree.command import Command
+from scree.pictures.panels import save_picture
 
 
 class Kind(NamedTuple):
@@ -333,36 +333,7 @@ def render_sheet(run, maps, source, notes, output, observed=None):
         notes = notes + [f"coordinates: {coordinate_system(run)}"]
     text = textwrap.fill("; ".join(notes), int(15 * (sheet.size[0] - 0.1)))
     figure.text(0.1 / sheet.size[0], 0.08 / sheet.size[1], text, fontsize=8, color="0.3", va="bottom")
-    save(figure, output)
-
-
-def save(figure, output, dpi=120):
-    """A PNG gets 256 colours, half the space: those of areas are kept, those at the edges of letters and lines may be replaced by the nearest."""
-    if pathlib.Path(output).suffix.lower() != ".png":
-        figure.savefig(output)
-    else:
-        figure.set_dpi(dpi)
-        figure.canvas.draw()
-        pixels = np.asarray(figure.canvas.buffer_rgba())[..., :3]
-        colours, place, count = np.unique(pixels.reshape(-1, 3), axis=0, return_inverse=True, return_counts=True)
-        palette, nearest = reduced(colours.astype(float), count)
-        picture = PIL.Image.fromarray(nearest[place].reshape(pixels.shape[:2]), "P")
-        picture.putpalette(palette.astype(np.uint8).tobytes())
-        picture.save(output, optimize=True)
-    plt.close(figure)
-
-
-def reduced(colours, count, size=256):
-    """A palette and the index in it for each of the colours: a third of the commonest ones, then again and again the one that is farthest from all."""
-    chosen = list(np.argsort(-count)[:size // 3])
-    distances = np.stack([((colours - colours[one]) ** 2).sum(axis=1) for one in chosen])
-    nearest, distance = distances.argmin(axis=0), distances.min(axis=0)
-    while len(chosen) < size and np.any(distance > 0):
-        chosen.append(np.argmax(distance * (1 + np.minimum(count, 20))))
-        new = ((colours - colours[chosen[-1]]) ** 2).sum(axis=1)
-        nearest[new < distance] = len(chosen) - 1
-        distance = np.minimum(distance, new)
-    return colours[chosen], nearest.astype(np.uint8)
+    save_picture(figure, output, 120)
 
 
 def render_profiles(run, names, output):
@@ -386,7 +357,7 @@ def render_profiles(run, names, output):
         axes.set_ylabel(kind.unit)
         axes.grid(alpha=0.3)
     panels[-1, 0].set_xlabel("x (m); dashed: ends of the release" if first else "x (m)")
-    save(figure, output)
+    save_picture(figure, output, 120)
 
 
 def read_profile(path):

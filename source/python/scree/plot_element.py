@@ -2,28 +2,15 @@
 """Plots what scree-element wrote: element.png of table.txt in each folder."""
 
 import pathlib
-import warnings
 
 import matplotlib.pyplot as plt
-import numpy as np
-
+from scree import results
 from scree.command import Command
-
-
-def read(file):
-    """Columns of the table by name, without units."""
-    names = file.open(encoding="utf-8").readline().split()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of a table without rows
-        values = np.loadtxt(file, skiprows=1, ndmin=2)
-    if values.shape[1] != len(names):
-        raise ValueError(f"{file} is no table of scree-element, or one without rows")
-    return {name.split("[")[0]: values[:, i] for i, name in enumerate(names)}
 
 
 def plot(directory):
     """Throws OSError or ValueError if there is no table of scree-element."""
-    columns = read(directory / "table.txt")
+    columns = results.read_element_table(directory / "table.txt")
     missing = [name for name in ("strain", "stress_ratio", "mean_pressure", "deviator_stress") if name not in columns]
     if missing:
         raise ValueError(f"{directory / 'table.txt'} has no column {missing[0]}: is {directory} a folder of scree-element?")

@@ -18,7 +18,7 @@ import numpy as np
 from scree import results
 from scree.command import Command
 from scree.pictures.fields import FIELDS
-from scree.pictures.panels import WRITERS, animate_points, has_collection, has_ffmpeg, render_points
+from scree.pictures.panels import WRITERS, animate_points, has_collection, render_points
 from scree.pictures.paraview import write_state
 from scree.pictures.tables import DEFAULT_PANELS, PANELS, render_probe, render_statistics
 
@@ -83,7 +83,7 @@ def _output(arguments, name, ending=".png"):
 
 def _film_endings(kind):
     """The endings of the files of --animate: both kinds, if ffmpeg is there."""
-    if kind in ("both", "mp4") and not has_ffmpeg():
+    if kind in ("both", "mp4") and not WRITERS[".mp4"].isAvailable():
         if kind == "mp4":
             raise ValueError("--animate mp4: ffmpeg is missing. Install ffmpeg, or write --animate gif")
         print("No film .mp4: ffmpeg is missing. Install ffmpeg for it; in Debian: package ffmpeg.")

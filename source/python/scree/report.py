@@ -75,36 +75,23 @@ def read_log(run):
             label = None
             if re.match(r"Check:|Unusual value|'Maximum time step' bounds|Stopped|The run before this one|.*NODATA", line):
                 warnings.append(line)
-            _read_older_line(line, parts)
     return Log(parts, warnings, text)
-
-
-def _read_older_line(line, parts):
-    """Lines without a label, which are the verdict in some logs."""
-    for label, wanted in (("Finished", r"t = \S+ s \(100 %\), (step .*)"), ("Limits", r"per simulated second: .*(time step limited by: .*)"),
-                          ("Stopped", r"Stopped (.*)"), ("Date", r".* on \S+; (\d{4}-.*)")):
-        found = re.match(wanted, line)
-        if found:
-            parts[label] = found.group(1)
-    found = re.match(r"(\d+) rank\(s\), .* on (\S+);", line)
-    if found:
-        parts["Ranks"], parts["Process"] = found.groups()
 
 
 def identity(run, log):
     """[(what, text)] of program, date, command, case, model and machine."""
     program, case = log.parts.get("Program", ""), log.parts.get("Case", "original.prm").split(" -> ")[0]
-    version = re.match(r"Scree (\S+)(?: \((?:commit )?([^)]*)\))?", program)
-    date = re.search(r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d UTC", program + log.parts.get("Date", ""))
+    version = re.match(r"Scree (\S+)(?: \(([^)]*)\))?", program)
+    date = re.search(r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d UTC", program)
     ranks = re.search(r"(\d+) ranks?\b", program)
-    n_ranks = int(ranks.group(1) if ranks else log.parts.get("Ranks", 1))
+    n_ranks = int(ranks.group(1)) if ranks else 1
     return [(what, text) for what, text in (
         ("Run folder", str(pathlib.Path(run))),
         ("Start of the run", date.group(0) if date else ""),
         ("Program", f"Scree {version.group(1)}" if version else ""),
         ("Commit", version.group(2) if version else ""),
         ("Command", (f"mpirun -np {n_ranks} " if n_ranks > 1 else "") + f"scree {case}"),
-        *((label, log.parts.get(label, "")) for label in ("Model", "Mesh", "Memory", "Libraries", "Process")),
+        *((label, log.parts.get(label, "")) for label in ("Model", "Mesh", "Memory", "Libraries")),
     ) if text]
 
 

@@ -126,6 +126,15 @@ def read_table(path):
     return dict(zip(names, np.array(rows, dtype=float).reshape(len(rows), len(names)).T))
 
 
+def read_element_table(path):
+    """{column without unit: values} of a table of scree-element. Throws an OSError, or a ValueError if it is none."""
+    head, _, rows = pathlib.Path(path).read_text(encoding="utf-8").partition("\n")
+    names, values = [name.split("[")[0] for name in head.split()], np.array(rows.split(), float)
+    if not names or not len(values) or len(values) % len(names):
+        raise ValueError(f"{path} is no table of scree-element, or one without rows")
+    return dict(zip(names, values.reshape(-1, len(names)).T))
+
+
 def read_box(run):
     """The box of the mesh from parameters.prm."""
     entries = variants.read_entries(pathlib.Path(run) / "parameters.prm")

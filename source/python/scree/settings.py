@@ -32,6 +32,30 @@ def nearest(name, names):
     return f'. Did you mean "{close[0]}"?' if close else f". Write one of: {', '.join(names)}"
 
 
+def choice(file, given, key, choices, table=None):
+    """One of the choices; the first without the entry."""
+    value = given.get(key, choices[0])
+    if value not in choices:
+        raise fault(file, key, value, f"there is no such choice{nearest(str(value), choices)}", table)
+    return value
+
+
+def number(file, given, key, default, least=0., unit="", table=None):
+    """A number above `least` or, with a unit, of at least it."""
+    value = given.get(key, default)
+    if not is_number(value) or value < least or (value == least and not unit):
+        raise fault(file, key, value, f"write a number of at least {least:g}, in {unit}" if unit else f"write a number above {least:g}", table)
+    return float(value)
+
+
+def count(file, given, key, default, least=1):
+    """A whole number."""
+    value = given.get(key, default)
+    if isinstance(value, bool) or not isinstance(value, int) or value < least:
+        raise fault(file, key, value, f"write a whole number of at least {least}")
+    return value
+
+
 def text(value):
     """A value as it stands in a case."""
     if isinstance(value, bool):

@@ -6,6 +6,7 @@ import pathlib
 import matplotlib.colors
 import matplotlib.ticker
 import numpy as np
+from scipy import ndimage
 
 from scree import expressions, results, variants
 from scree.results import Raster
@@ -81,7 +82,9 @@ def draw_shade(axes, ground, strength, zorder, soil=None):
     light = matplotlib.colors.LightSource(azdeg=315, altdeg=45)
     # Steep and gentle terrain get the same contrast.
     shade = light.hillshade(filled, vert_exag=0.7 / slope, dx=ground.width, dy=ground.width)
-    dark = strength * _smooth(np.where(np.isnan(ground.values), 0., 0.1 + 0.9 * (1 - shade)))
+    dark = np.where(np.isnan(ground.values), 0., 0.1 + 0.9 * (1 - shade))
+    # Small cells with values between the centres of large ones.
+    dark = strength * ndimage.zoom(dark, max(1, round(700 / max(dark.shape))), order=1, mode="nearest", grid_mode=True)
     image = np.zeros((*dark.shape, 4))
     image[..., 3] = np.round(60 * dark) / 60  # Steps that nobody sees make a small file.
     if soil is not None:
@@ -92,18 +95,6 @@ def draw_shade(axes, ground, strength, zorder, soil=None):
         has_soil = np.isfinite(soil.values[np.clip(row, 0, soil.values.shape[0] - 1)][:, np.clip(column, 0, soil.values.shape[1] - 1)])
         image[~(is_inside & has_soil), 3] = 0.
     axes.imshow(image, extent=ground.extent, interpolation="nearest", zorder=zorder)
-
-
-def _smooth(values, longest=700):
-    """Values of small cells by linear interpolation between the centres of large ones."""
-    parts = max(1, round(longest / max(values.shape)))
-    for axis in (0, 1):
-        count = values.shape[axis]
-        place = np.clip((np.arange(count * parts) + 0.5) / parts - 0.5, 0, count - 1)
-        below = np.minimum(place.astype(int), max(0, count - 2))
-        weight = np.expand_dims(place - below, 1 - axis)
-        values = (1 - weight) * np.take(values, below, axis) + weight * np.take(values, np.minimum(below + 1, count - 1), axis)
-    return values
 
 
 def draw_contours(axes, raster, zorder):

@@ -17,6 +17,36 @@ namespace test_balance_checks
 using namespace dealii;
 using namespace scree;
 
+/// Lets checks look at a scene with these totals.
+struct Watched
+{
+  SoilScene<2> scene{ 0., 0.8 };
+  BodyForces<2> forces;
+  BalanceChecks<2> checks;
+  Statistics<2> statistics;
+
+  explicit Watched(const double mass_scaling = 1.)
+      : forces(scene.grid, { 0., -10. }, BodyForceParameters(), mass_scaling)
+      , checks(scene.grid, forces)
+      , statistics(scene.grid, forces.gravity(), features(mass_scaling))
+  {
+    scene.add_soil("x < 0.4 && y < 0.4");
+  }
+
+  static SceneFeatures<2> features(const double mass_scaling)
+  {
+    SceneFeatures<2> result;
+    result.mass_scaling = mass_scaling;
+    return result;
+  }
+
+  void look(const RunBalance<2> &totals, const double time)
+  {
+    checks.look(statistics.collect(scene.bodies, scene.water, totals, time, 0, 0., UpdateReport()));
+  }
+};
+
+
 template <int dim>
 void set_velocity(SoilScene<dim> &scene, const double along_last_axis)
 {
@@ -29,17 +59,15 @@ void set_velocity(SoilScene<dim> &scene, const double along_last_axis)
 /// A block of 160 kg that resists as 640 kg: a load of 400 J gives it 1 m/s, 320 J, of which 80 J are of its true mass.
 void check_scaled_masses()
 {
-  SoilScene<2> scene(0., 0.8);
-  scene.add_soil("x < 0.4 && y < 0.4");
-  const BodyForces<2> forces(scene.grid, { 0., -10. }, BodyForceParameters(), 4.);
-  BalanceChecks<2> checks(scene.grid, forces);
+  Watched watched(4.);
+  auto &[scene, forces, checks, statistics] = watched;
   RunBalance<2> totals;
-  checks.look(scene.bodies, scene.water, totals, 0.);
+  watched.look(totals, 0.);
   set_velocity(scene, -1.);
   totals.balance.body_impulse = 4. * PointSums<2>(scene.bodies, scene.water, forces.gravity(), MPI_COMM_WORLD).momentum;
   totals.balance.load_work    = 400.;
   totals.balance.motion       = 320.; // J s, over 2 s in which the work grows evenly
-  checks.look(scene.bodies, scene.water, totals, 2.);
+  watched.look(totals, 2.);
   std::cout << "masses times 4, in motion: 80 J are missing\n" << verdict(checks.results()) << '\n';
 }
 
@@ -47,42 +75,38 @@ void check_scaled_masses()
 /// A block of 160 kg, at rest, that a load of 100 J sets in motion, 80 J, and walls stop again.
 void run()
 {
-  SoilScene<2> scene(0., 0.8);
-  scene.add_soil("x < 0.4 && y < 0.4");
-  Tensor<1, 2> gravity;
-  gravity[1] = -10.;
-  const BodyForces<2> forces(scene.grid, { 0., -10. }, BodyForceParameters());
-  BalanceChecks<2> checks(scene.grid, forces);
+  Watched watched;
+  auto &[scene, forces, checks, statistics] = watched;
   std::cout << "nothing known: " << checks.results().size() << " results\n";
 
   RunBalance<2> totals;
-  checks.look(scene.bodies, scene.water, totals, 0.);
+  watched.look(totals, 0.);
   std::cout << "at rest\n" << verdict(checks.results()) << '\n';
 
   set_velocity(scene, -1.);
-  totals.balance.body_impulse = PointSums<2>(scene.bodies, scene.water, gravity, MPI_COMM_WORLD).momentum;
+  totals.balance.body_impulse = PointSums<2>(scene.bodies, scene.water, forces.gravity(), MPI_COMM_WORLD).momentum;
   totals.balance.load_work    = 100.;
-  checks.look(scene.bodies, scene.water, totals, 0.);
+  watched.look(totals, 0.);
   std::cout << "in motion: 20 J are missing\n" << verdict(checks.results()) << '\n';
 
   set_velocity(scene, 0.);
   totals.balance.wall_impulse         = -totals.balance.body_impulse;
   totals.material.plastic_dissipation = 79.5;
-  checks.look(scene.bodies, scene.water, totals, 0.);
+  watched.look(totals, 0.);
   totals.material.plastic_dissipation = 81.5; // 2 J more than there were
-  checks.look(scene.bodies, scene.water, totals, 0.);
+  watched.look(totals, 0.);
   std::cout << "stopped, with a gain of 2 J\n" << verdict(checks.results()) << '\n';
 
   totals.balance.bed_dissipation = -3.; // turned into heat elsewhere: the numerical dissipation does not fall
   totals.material.plastic_dissipation += 3.;
-  checks.look(scene.bodies, scene.water, totals, 0.);
+  watched.look(totals, 0.);
   std::cout << "a bed that gives 3 J\n" << verdict(checks.results()) << '\n';
   totals.balance.bed_dissipation = 0.;
   totals.material.plastic_dissipation -= 3.;
 
   totals.lost_mass = 1.6;
   totals.balance.wall_impulse[0] += 0.16;
-  checks.look(scene.bodies, scene.water, totals, 0.);
+  watched.look(totals, 0.);
   std::cout << "1.6 kg and 0.16 N s too much\n" << verdict(checks.results()) << '\n';
 
   check_scaled_masses();

@@ -6,8 +6,9 @@ import csv
 import matplotlib.pyplot as plt
 import numpy as np
 
-from scree import maps, variants
+from scree import variants
 from scree.fit import laboratory
+from scree.pictures.panels import save_picture
 
 TEST, LAW = "0.35", "#c8553d"
 
@@ -134,5 +135,4 @@ def draw(problem, solution, file):
                 axes.set_yscale("log")
             axes.grid(alpha=0.3)
     panels[0, 0].legend(fontsize=8)
-    maps.save(figure, file)
-    plt.close(figure)
+    save_picture(figure, file, 120)

@@ -77,41 +77,20 @@ def read(file):
     if not parameters:
         raise ValueError(f'{file}: no entry is free. Write one into [parameters], such as "Mohr-Coulomb/Friction angle" = '
                          "{ start = 32, low = 25, high = 45 }")
-    weights, step = _choice(file, given, "weights", WEIGHTS), _positive(file, given, "strain_step", 2e-4)
+    weights, step = settings.choice(file, given, "weights", WEIGHTS), settings.number(file, given, "strain_step", 2e-4)
     tests = [_test(file, given, name, value, weights, step) for name, value in given.get("tests", {}).items()]
     if not tests:
         raise ValueError(f"{file}: there is no test. Write [tests.NAME] with its table (data) and [tests.NAME.columns]")
     for test in tests:
         _check_entries(file, test, given.get("set", {}), parameters)
-    problem = Problem(file, pathlib.Path(given.get("results", f"results/{file.stem}")), parameters, tests, _count(file, given, "starts", 1),
-                      _count(file, given, "evaluations", 100))
+    problem = Problem(file, pathlib.Path(given.get("results", f"results/{file.stem}")), parameters, tests, settings.count(file, given, "starts", 1),
+                      settings.count(file, given, "evaluations", 100))
     if problem.n_values <= len(parameters):
         raise ValueError(f"{file}: too few data: {problem.n_values} values for {len(parameters)} free entries. Add tests or columns, or hold entries in [set]")
     return problem
 
 
 # Single entries -------------------------------------------------------------------------------------------------------
-
-
-def _choice(file, given, key, choices, table=None):
-    value = given.get(key, choices[0])
-    if value not in choices:
-        raise settings.fault(file, key, value, f"there is no such choice{settings.nearest(str(value), choices)}", table)
-    return value
-
-
-def _positive(file, given, key, default, table=None):
-    value = given.get(key, default)
-    if not settings.is_number(value) or value <= 0:
-        raise settings.fault(file, key, value, "write a number above 0", table)
-    return float(value)
-
-
-def _count(file, given, key, default):
-    value = given.get(key, default)
-    if isinstance(value, bool) or not isinstance(value, int) or value < 1:
-        raise settings.fault(file, key, value, "write a whole number of at least 1")
-    return value
 
 
 def _check_keys(file, given, keys, table):
@@ -128,7 +107,7 @@ def _parameter(file, entry, given):
         raise settings.fault(file, entry, given, "write { start = 1.2, low = 0.9, high = 1.6 }, and scale = \"logarithmic\" for a value of unknown order",
                              "parameters")
     start, low, high = (float(given[key]) for key in keys)
-    is_logarithmic = _choice(file, given, "scale", SCALES, f"parameters], [{entry}") == "logarithmic"
+    is_logarithmic = settings.choice(file, given, "scale", SCALES, f"parameters], [{entry}") == "logarithmic"
     if low >= high:
         raise settings.fault(file, entry, given, f"low = {low:g} is not below high = {high:g}", "parameters")
     if not low <= start <= high:
@@ -156,7 +135,7 @@ def _test(file, given, name, own, weights, step):
     base = {"Path": "drained triaxial", **variants.read_entries(case), **entries}
     if base["Path"] not in laboratory.COORDINATES:
         raise settings.fault(case, "Path", base["Path"], f"there is no such path{settings.nearest(base['Path'], list(laboratory.COORDINATES))}")
-    strain = _choice(file, own, "strain", STRAINS, table)
+    strain = settings.choice(file, own, "strain", STRAINS, table)
     coordinate, columns = _columns(file, table, data, base["Path"], own, strain, weights)
     largest = max(float(np.max(column.strain)) for column in columns)
     if not 0 < largest < (1 if strain == "engineering" and coordinate != "shear_strain" else 5):
@@ -164,7 +143,7 @@ def _test(file, given, name, own, weights, step):
     # A little beyond the last row, so that the law's values enclose it.
     final = (1 + 1e-9) * laboratory.final_strain(base["Path"], coordinate, largest, strain)
     entries.update({"Path": base["Path"], "Final strain": f"{final:.12g}", "Number of steps": str(max(LEAST_STEPS, int(np.ceil(final / step))))})
-    return Test(name, case, base["Path"], entries, strain, coordinate, columns, _positive(file, own, "weight", 1., table))
+    return Test(name, case, base["Path"], entries, strain, coordinate, columns, settings.number(file, own, "weight", 1., table=table))
 
 
 def _file(file, key, value, table):
@@ -191,21 +170,21 @@ def _columns(file, table, data, path, own, strain, weights):
                          'Write for instance axial_strain = { column = "NAME IN THE TABLE", unit = "%" }')
     x = values[coordinate]
     if "largest_strain" in own:
-        largest = _positive(file, own, "largest_strain", 1., table) * laboratory.UNITS[coordinate][given[coordinate].get("unit", "-")]
+        largest = settings.number(file, own, "largest_strain", 1., table=table) * laboratory.UNITS[coordinate][given[coordinate].get("unit", "-")]
         x = np.where(x <= largest, x, np.nan)
     _check_coordinate(data, coordinate, x, lines)
     found = []
     for name in chosen:
         there = np.isfinite(x) & np.isfinite(values[name])
         column = f"{table}.columns.{name}"
-        is_logarithmic = _choice(file, given[name], "scale", SCALES, column) == "logarithmic"
+        is_logarithmic = settings.choice(file, given[name], "scale", SCALES, column) == "logarithmic"
         if not there.any():
             raise ValueError(f"{data}: there is no row with both {coordinate} and {name}")
         if is_logarithmic and np.min(values[name][there]) <= 0:
             raise settings.fault(file, "scale", "logarithmic", "the column has values that are not above 0", column)
         canonical = "volume_strain" if name == "void_ratio" else name
         found.append(laboratory.Column(canonical, x[there], values[name][there], laboratory.row_weights(x[there], weights),
-                                       _positive(file, given[name], "weight", 1., column), is_logarithmic))
+                                       settings.number(file, given[name], "weight", 1., table=column), is_logarithmic))
     return "volume_strain" if coordinate == "void_ratio" else coordinate, found
 
 

@@ -9,7 +9,7 @@ import subprocess
 
 import numpy as np
 
-from scree import command, variants
+from scree import command, results, variants
 
 TIME_LIMIT = 300.  # s, for the paths of a process
 
@@ -70,7 +70,7 @@ class Runs:
         self.n_runs += 1
         table, message = None, "the program died or took too long"
         try:
-            table = read_table(file.with_suffix("") / "table.txt")
+            table = results.read_element_table(file.with_suffix("") / "table.txt")
             if not all(np.isfinite(column).all() for column in table.values()):
                 table, message = None, "a result is not a finite number"
         except (OSError, ValueError):
@@ -82,11 +82,3 @@ class Runs:
             self.failures.append((test.name, list(values), message))
             return message
         return table
-
-
-def read_table(file):
-    """{column without unit: values} of a table of scree-element."""
-    head, _, rows = file.read_text(encoding="utf-8").partition("\n")
-    names = [name.split("[")[0] for name in head.split()]
-    values = np.array(rows.split(), float).reshape(-1, len(names))
-    return dict(zip(names, values.T))

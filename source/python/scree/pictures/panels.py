@@ -3,15 +3,15 @@
 
 import contextlib
 import pathlib
-import shutil
-import subprocess
 
 import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
+import PIL.Image
+from matplotlib import animation
 
 from scree import results
-from scree.pictures import fields, frame, plane, rigid
+from scree.pictures import fields, plane, rigid
 
 FRAMES_PER_SECOND = 10
 
@@ -96,7 +96,7 @@ def _pictures(run, times, collection):
 def _fitted(run, box, pictures, collection):
     """The part of the box that the pictures and the water or soil around them reach."""
     others = [other_points(run, points.time, collection) for points in pictures]
-    return frame.fitted(box, pictures + [points for points in others if points])
+    return plane.fitted(box, pictures + [points for points in others if points])
 
 
 def _scale(pictures, name, limits):
@@ -155,81 +155,35 @@ def render_points(run, output, name, times=None, limits=None, collection="points
 
 
 def save_picture(figure, output, dpi=130):
-    """Without an alpha channel a PNG is smaller."""
-    if pathlib.Path(output).suffix.lower() != ".png":
-        figure.savefig(output, dpi=dpi)
-    else:
-        figure.set_dpi(dpi)
-        _canvas_image(figure).save(output, optimize=True)
+    figure.savefig(output, dpi=dpi)
     plt.close(figure)
-
-
-def _canvas_image(figure):
-    from PIL import Image  # pylint: disable=import-outside-toplevel
-    figure.canvas.draw()
-    return Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[..., :3].copy())
 
 
 # Films ----------------------------------------------------------------------------------------------------------------
 
 
-def has_ffmpeg():
-    return shutil.which("ffmpeg") is not None
-
-
-class _Gif:
+class _Gif(animation.PillowWriter):
     """Frames with the colours of the middle of the film, without dithering, so that what rests costs nothing."""
 
-    def __init__(self, output):
-        self.output, self.frames = output, []
-
-    def add(self, image):
-        self.frames.append(image)
-
-    def _palette(self):
+    def _palette(self, frames):
         """256 colours, two thirds of them for what is coloured, although grey ground and paper cover more of the frames."""
-        from PIL import Image  # pylint: disable=import-outside-toplevel
-        chosen = [self.frames[i] for i in np.unique(np.linspace(0, len(self.frames) - 1, 8).astype(int))]
+        chosen = [frames[i] for i in np.unique(np.linspace(0, len(frames) - 1, 8).astype(int))]
         pixels = np.concatenate([np.asarray(image).reshape(-1, 3) for image in chosen])
         is_coloured = np.ptp(pixels.astype(int), axis=1) > 40
         random, sample = np.random.default_rng(0), []
         for group, number in ((pixels[is_coloured], 40000), (pixels[~is_coloured], 20000)):
             if len(group):
                 sample.append(group[random.integers(len(group), size=number)])
-        return Image.fromarray(np.concatenate(sample)[None]).quantize(256, method=0, kmeans=1)
+        return PIL.Image.fromarray(np.concatenate(sample)[None]).quantize(256, method=0, kmeans=1)
 
-    def close(self):
-        palette = self._palette()
-        first, *others = (image.quantize(palette=palette, dither=0) for image in self.frames)
-        pause = 1000 // FRAMES_PER_SECOND
-        first.save(self.output, save_all=True, append_images=others, duration=[pause] * len(others) + [1500], loop=0, optimize=False)
-
-
-class _Mp4:
-    """Frames that ffmpeg compresses."""
-
-    def __init__(self, output):
-        self.output, self.process = output, None
-
-    def add(self, image):
-        if self.process is None:
-            command = ["ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{image.width}x{image.height}",
-                       "-r", str(FRAMES_PER_SECOND), "-i", "-", "-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2", "-pix_fmt", "yuv420p",
-                       "-movflags", "+faststart", str(self.output)]
-            self.process = subprocess.Popen(command, stdin=subprocess.PIPE)  # pylint: disable=consider-using-with
-        try:
-            self.process.stdin.write(image.tobytes())
-        except BrokenPipeError:
-            pass  # its exit code tells
-
-    def close(self):
-        with contextlib.suppress(BrokenPipeError):
-            self.process.stdin.close()
-        if self.process.wait() != 0:
-            raise ValueError(f"ffmpeg could not write {self.output}")
+    def finish(self):
+        frames = [image.convert("RGB") for image in self._frames]
+        palette, pause = self._palette(frames), 1000 // self.fps
+        first, *others = (image.quantize(palette=palette, dither=0) for image in frames)
+        first.save(self.outfile, save_all=True, append_images=others, duration=[pause] * len(others) + [1500], loop=0, optimize=False)
 
 
-WRITERS = {".gif": _Gif, ".mp4": _Mp4}
+WRITERS = {".gif": _Gif, ".mp4": animation.FFMpegWriter}
 
 
 def animate_points(run, outputs, name, times=None, limits=None, collection="points", view=None):
@@ -239,26 +193,27 @@ def animate_points(run, outputs, name, times=None, limits=None, collection="poin
     frames = available if times is None else results.pictures_at(run, times, collection)
     sample = _pictures(run, [frames[i] for i in np.unique(np.linspace(0, len(frames) - 1, 9).astype(int))], collection)
     scale, shown = _scale(sample, name, limits), _fitted(run, box, sample, collection)
-    writers = [WRITERS[output.suffix](output) for output in outputs]
+    writers = [WRITERS[output.suffix](FRAMES_PER_SECOND) for output in outputs]
     is_plane = box.dim == 2
     with contextlib.ExitStack() as stack:
         drawing = (_Plane if is_plane else _Space)(run, shown, scale, collection, sample, stack, view, 900)
         figure, axes = _figure(1, drawing.ratio, is_plane)
         panel = axes[0, 0]
-        figure.set_dpi(90)
         _colour_bar(figure, axes, scale)
+        for writer, output in zip(writers, outputs):
+            writer.setup(figure, output, 90)
         for number, time in enumerate(frames):
             panel.clear()
             drawing.draw(panel, results.read_points(run, time, collection), True)
             # Numbers of one width: the title stands still.
             panel.set_title(f"t = {time:.{_decimals(frames)}f} s", fontsize="medium")
-            image = _canvas_image(figure)
             if number == 0:
+                figure.canvas.draw()
                 figure.set_layout_engine("none")  # the panel stands still, too
             for writer in writers:
-                writer.add(image)
+                writer.grab_frame()
         for writer in writers:
-            writer.close()
+            writer.finish()
     plt.close(figure)
 
 

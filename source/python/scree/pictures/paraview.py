@@ -6,7 +6,7 @@ import pathlib
 import numpy as np
 
 from scree import results
-from scree.pictures import fields, frame
+from scree.pictures import fields, plane
 
 SCRIPT = '''\
 # Written by scree-render --paraview for {run}.
@@ -70,7 +70,7 @@ PRESETS = {"RdBu_r": ("Cool to Warm", False), "YlOrRd": ("Inferno (matplotlib)",
 
 def _camera(box, pictures):
     """Focus, position, upward direction and half height of the view."""
-    shown = frame.fitted(box, pictures)
+    shown = plane.fitted(box, pictures)
     lower, upper = np.pad(shown.lower, (0, 3 - box.dim)), np.pad(shown.upper, (0, 3 - box.dim))
     focus, size = 0.5 * (lower + upper), upper - lower
     if box.dim == 2:

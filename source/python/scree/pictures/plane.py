@@ -7,12 +7,29 @@ import matplotlib.colors
 import matplotlib.lines
 import matplotlib.patches
 import numpy as np
+from scipy import ndimage, spatial
 
 from scree.pictures import rigid
 from scree.pictures.fields import Scale, field_values
 
 GROUND, STRUCTURE, WATER, WATER_LINE, SOIL_LINE, OUTLINE = "0.78", "0.45", "#cfe4f4", "#1763a6", "#7a3b10", "0.15"
 WIDTH_OF_FILL = 0.3  # cells; a gap of one cell in stretched material is closed, a layer of half a cell is kept
+
+
+def fitted(box, pictures):
+    """The box, cut to the points of all pictures (a list of Points) and a margin of 8 % of their extent or three cells."""
+    bounds = [(points.positions.min(axis=0), points.positions.max(axis=0)) for points in pictures if len(points.positions)]
+    if not bounds:
+        return box
+    lower = np.min([low for low, _ in bounds], axis=0)[:box.dim]
+    upper = np.max([high for _, high in bounds], axis=0)[:box.dim]
+    margin = np.maximum(0.08 * np.max(upper - lower), 3 * box.cell_size)
+    lower, upper = np.maximum(box.lower, lower - margin), np.minimum(box.upper, upper + margin)
+    # A little more than the material is no reason to cut: walls of the box that are close are shown.
+    size = box.upper - box.lower
+    lower = np.where(lower - box.lower < 0.12 * size, box.lower, lower)
+    upper = np.where(box.upper - upper < 0.12 * size, box.upper, upper)
+    return box._replace(lower=lower, upper=upper)
 
 
 class Pixels(NamedTuple):
@@ -50,16 +67,9 @@ def point_sides(points, box):
     return np.minimum(sides, 1.3 * np.median(sides))
 
 
-def _blurred(image, width):
+def blurred(image, width):
     """Convolution with a Gaussian of `width` pixels; nothing is outside of the image."""
-    reach = int(np.ceil(3 * width))
-    weights = np.exp(-0.5 * (np.arange(-reach, reach + 1) / width) ** 2)
-    weights /= weights.sum()
-    shape = [n + 2 * reach for n in image.shape]
-    kernel = np.zeros(shape)
-    kernel[:2 * reach + 1, :2 * reach + 1] = weights[:, None] * weights
-    spread = np.fft.irfft2(np.fft.rfft2(image, shape) * np.fft.rfft2(kernel), shape)
-    return spread[reach:reach + image.shape[0], reach:reach + image.shape[1]]
+    return ndimage.gaussian_filter(image, width, mode="constant", radius=int(np.ceil(3 * width)))
 
 
 def _pixel_of(points, pixels):
@@ -79,48 +89,25 @@ def fill(points, box, pixels, is_open, chosen=True):
 
     def part(cells):
         width = max(cells * box.cell_size / pixels.width, 0.5)
-        return _blurred(areas, width) / np.maximum(_blurred(is_open, width), 0.25)
+        return blurred(areas, width) / np.maximum(blurred(is_open, width), 0.25)
 
     # Small holes deep inside close: with the larger width only they are filled by 0.8.
     filled = part(WIDTH_OF_FILL)
     return np.where(part(2.5 * WIDTH_OF_FILL) > 0.8, np.maximum(filled, 0.75), filled)
 
 
-def _nearest(points, box, pixels):
-    """Number of the point next to each pixel, by jump flooding (Rong & Tan 2006); -1 where none is within about a cell."""
-    row, column, inside = _pixel_of(points, pixels)
-    # Number -1, of none, is far away.
-    place = np.stack([np.append((points.positions[:, axis] - pixels.lower[axis]) / pixels.width - 0.5, 1e6) for axis in range(2)]).astype(np.float32)
-    nearest = np.full((pixels.ny, pixels.nx), -1, dtype=np.int32)
-    nearest[row[inside], column[inside]] = np.flatnonzero(inside)
-    x, y = np.arange(pixels.nx, dtype=np.float32), np.arange(pixels.ny, dtype=np.float32)[:, None]
-
-    def distance(number):
-        return (place[0][number] - x) ** 2 + (place[1][number] - y) ** 2
-
-    least = distance(nearest)
-    step = 2 ** int(np.ceil(np.log2(max(box.cell_size / pixels.width, 1))))
-    while step >= 1:
-        padded = np.pad(nearest, step, constant_values=-1)
-        for dy in (0, step, 2 * step):
-            for dx in (0, step, 2 * step):
-                other = padded[dy:dy + pixels.ny, dx:dx + pixels.nx]
-                other_distance = distance(other)
-                closer = other_distance < least
-                nearest[closer], least[closer] = other[closer], other_distance[closer]
-        step //= 2
-    return nearest, place, (x, y)
-
-
 def _covered(points, box, pixels, filled):
     """Which pixels the material covers, and the nearest point of each: what is filled, and the squares of points that fly outside of it."""
-    nearest, place, centres = _nearest(points, box, pixels)
+    places = (points.positions[:, :2] - pixels.lower[:2]) / pixels.width - 0.5
+    centres = np.stack(np.meshgrid(np.arange(pixels.nx), np.arange(pixels.ny)), axis=-1)
+    nearest, near = np.zeros((pixels.ny, pixels.nx), dtype=int), filled > 1e-9
+    nearest[near] = spatial.cKDTree(places).query(centres[near])[1]
     half = np.maximum(0.5 * point_sides(points, box) / pixels.width, 1.)
-    in_square = np.all([np.abs(place[axis][nearest] - centres[axis]) <= half[nearest] for axis in range(2)], axis=0)
+    in_square = np.max(np.abs(places[nearest] - centres), axis=-1) <= half[nearest]
     row, column, inside = _pixel_of(points, pixels)
-    is_alone = np.append(np.zeros(len(inside), dtype=bool), False)
-    is_alone[:-1][inside] = filled[row[inside], column[inside]] < 0.5
-    return (nearest >= 0) & ((filled >= 0.5) | (in_square & is_alone[nearest])), nearest
+    is_alone = np.zeros(len(inside), dtype=bool)
+    is_alone[inside] = filled[row[inside], column[inside]] < 0.5
+    return near & ((filled >= 0.5) | (in_square & is_alone[nearest])), nearest
 
 
 class Panel(NamedTuple):

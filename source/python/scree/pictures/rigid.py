@@ -7,6 +7,7 @@ import sys
 from typing import NamedTuple
 
 import numpy as np
+from scipy import ndimage
 
 from scree import expressions, results, variants
 
@@ -40,10 +41,7 @@ def _raster(file, places, origin):
     heights = ground.values[::-1]  # the southern row first
     column = (places[0] + origin[0] - ground.x) / ground.width - 0.5
     row = (places[1] + origin[1] - ground.y) / ground.width - 0.5
-    column, row = np.clip(column, 0, heights.shape[1] - 1), np.clip(row, 0, heights.shape[0] - 1)
-    i, j = np.minimum(column.astype(int), heights.shape[1] - 2), np.minimum(row.astype(int), heights.shape[0] - 2)
-    s, t = column - i, row - j
-    z = (1 - t) * ((1 - s) * heights[j, i] + s * heights[j, i + 1]) + t * ((1 - s) * heights[j + 1, i] + s * heights[j + 1, i + 1])
+    z = ndimage.map_coordinates(heights, np.broadcast_arrays(row, column), order=1, mode="nearest")
     distance = places[2] + origin[2] - z
     return np.where(np.isnan(distance), np.nanmax(places[2]) - np.nanmin(places[2]) + 1., distance)
 

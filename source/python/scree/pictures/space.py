@@ -4,6 +4,10 @@
 The projection is parallel, so that lengths can be measured in the image.
 """
 
+import contextlib
+import os
+import shutil
+import subprocess
 from typing import NamedTuple
 
 import numpy as np
@@ -12,18 +16,62 @@ from vtkmodules.vtkCommonCore import vtkPoints, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkBox, vtkCellArray, vtkPolyData, vtkRectilinearGrid
 from vtkmodules.vtkFiltersCore import vtkClipPolyData, vtkContourFilter, vtkElevationFilter, vtkPolyDataNormals
 from vtkmodules.vtkFiltersSources import vtkCubeSource
-from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow
 from vtkmodules.vtkRenderingOpenGL2 import vtkOpenGLSphereMapper
 
 from scree.pictures import rigid
-from scree.pictures.display import offscreen_window
-from scree.pictures.plane import point_sides
+from scree.pictures.plane import blurred, point_sides
 
 GROUND, STRUCTURE, FLOOR, WATER = (0.86, 0.83, 0.77), (0.50, 0.52, 0.56), (0.87, 0.87, 0.86), (0.45, 0.67, 0.86)
 WIDTH_OF_FILL = 0.5  # cells; closes gaps of stretched material of one and a half cells
 LEVEL = 0.4  # of the fill on the surface: thinner layers than at 1/2 have one, 0.13 cells outside of the material
 LARGEST_LATTICE = 2_500_000  # nodes at which the ground is sampled
 SUPERSAMPLING = 2
+
+
+# A window of VTK that no screen shows. Debian's VTK draws by an X server only: where none is there, Xvfb is started for the time of the drawing.
+
+
+@contextlib.contextmanager
+def offscreen_window(width, height):
+    """A vtkRenderWindow without a screen. Throws a ValueError if nothing can draw."""
+    with contextlib.ExitStack() as stack:
+        window = vtkRenderWindow()
+        if window.IsA("vtkXOpenGLRenderWindow"):
+            stack.enter_context(_x_server())
+        window.SetOffScreenRendering(1)
+        window.SetMultiSamples(0)
+        window.SetSize(width, height)
+        # Before the server ends: it would end this program, too.
+        stack.callback(window.Finalize)
+        yield window
+
+
+@contextlib.contextmanager
+def _x_server():
+    """Xvfb, if it is installed; else the display of the desktop."""
+    if shutil.which("Xvfb") is None:
+        if not os.environ.get("DISPLAY"):
+            raise ValueError("pictures of 3D runs need an X server. Install Xvfb; in Debian: package xvfb")
+        yield
+        return
+    before = os.environ.get("DISPLAY")
+    read_end, write_end = os.pipe()
+    with subprocess.Popen(["Xvfb", "-displayfd", str(write_end), "-screen", "0", "64x64x24", "-nolisten", "tcp"],
+                          pass_fds=[write_end], stderr=subprocess.DEVNULL) as server:
+        os.close(write_end)
+        with os.fdopen(read_end) as answer:
+            number = answer.readline().strip()
+        if not number:
+            raise ValueError("Xvfb does not start. Does `Xvfb :99` start in a terminal?")
+        os.environ["DISPLAY"] = ":" + number
+        try:
+            yield
+        finally:
+            server.terminate()
+            os.environ.pop("DISPLAY")
+            if before is not None:
+                os.environ["DISPLAY"] = before
 
 
 class View(NamedTuple):
@@ -134,17 +182,6 @@ def _solid(coordinates, level_set):
     """The closed surface of what is rigid in the lattice."""
     bound = 2 * (coordinates[0][1] - coordinates[0][0])
     return _contour(coordinates, np.clip(level_set, -bound, bound), 0., bound)
-
-
-def _blurred(values, width):
-    """Convolution of an array, indexed z, y, x, with a Gaussian of `width` nodes; nothing is outside of it."""
-    reach = int(np.ceil(3 * width))
-    weights = np.exp(-0.5 * (np.arange(-reach, reach + 1) / width) ** 2)
-    weights /= weights.sum()
-    for axis in range(3):
-        padded = np.pad(values, [(reach, reach) if one == axis else (0, 0) for one in range(3)])
-        values = sum(weight * np.take(padded, range(start, start + values.shape[axis]), axis) for start, weight in enumerate(weights))
-    return values
 
 
 def _actor(surface, colour=None, ambient=0.32):
@@ -335,12 +372,12 @@ class Scene:
         def spread(weights):
             """The weights of the points, on the lattice."""
             shape = tuple(numbers[::-1])
-            return _blurred(np.bincount(np.ravel_multi_index(index, shape), weights, np.prod(shape)).reshape(shape), width)
+            return blurred(np.bincount(np.ravel_multi_index(index, shape), weights, np.prod(shape)).reshape(shape), width)
 
         volumes = (point_sides(points, self.box)[inside] / spacing) ** 3
         filled = spread(volumes)
         colour = {f"colour {part}": spread(volumes * colours[inside, part]) / np.maximum(filled, 1e-12) for part in range(3)}
-        filled = filled / np.maximum(_blurred(is_open.astype(float), width), 0.25)
+        filled = filled / np.maximum(blurred(is_open.astype(float), width), 0.25)
         if surfaces:
             # The surface ends half a node below the ground; cut faces must not cover those of the ground.
             filled = np.minimum(filled, LEVEL * (1.5 + np.min([surface.level_set for surface in surfaces], axis=0) / spacing))

@@ -50,22 +50,40 @@ def _scaled(columns, unit):
     return {name: values / 10. ** power for name, values in columns.items()}, PREFIXES[power] + unit
 
 
-def _label_lines(panel, lines):
-    """Names at the right ends of the lines, moved apart where they would overlap."""
-    low, high = panel.get_ylim()
-    least = 0.085 * (high - low) * 2.6 / (panel.figure.get_figheight() / len(panel.figure.axes))
-    ends = sorted(((line.get_ydata()[np.isfinite(line.get_ydata())][-1], line) for line in lines), key=lambda end: end[0])
-    places = [value for value, _ in ends]
-    for _ in range(200):
-        for i in range(len(places) - 1):
-            missing = least - (places[i + 1] - places[i])
-            if missing > 1e-9:
-                places[i], places[i + 1] = max(places[i] - 0.5 * missing, low), places[i + 1] + 0.5 * missing
-    right = panel.get_xlim()[1]
-    for place, (value, line) in zip(places, ends):
-        panel.annotate(line.get_label(), (right, value), (1.02, (place - low) / (high - low)), xycoords="data", textcoords="axes fraction",
-                       color=line.get_color(), fontsize="small", va="center", annotation_clip=False,
-                       arrowprops={"arrowstyle": "-", "color": line.get_color(), "lw": 0.6, "shrinkA": 0, "shrinkB": 0})
+def name_lines(axes, size=9):
+    """The names of the lines of `axes` in its right margin, each at the height of its line's last point, in its colour."""
+    lines = [line for line in axes.get_lines() if not line.get_label().startswith("_")]
+    axes.figure.canvas.draw()
+    inverse, ends = axes.transAxes.inverted(), []
+    for line in lines:
+        shown = np.isfinite(line.get_xdata().astype(float)) & np.isfinite(line.get_ydata().astype(float))
+        places = inverse.transform(axes.transData.transform(np.column_stack([line.get_xdata(), line.get_ydata()])[shown].astype(float)))
+        inside = places[(places[:, 0] <= 1.001) & (places[:, 1] <= 1.001) & (places[:, 1] >= -0.001)]
+        ends.append(inside[np.argmax(inside[:, 0])] if len(inside) else np.array([1., 1.]))
+    names = [line.get_label() for line in lines]
+    line_height = 1.25 * size / 72 * axes.figure.dpi / axes.get_window_extent().height
+    heights = _spread([end[1] for end in ends], [line_height * (1 + name.count("\n")) for name in names])
+    for line, end, name, height in zip(lines, ends, names, heights):
+        axes.annotate(name, end, (1.04, height), "axes fraction", "axes fraction", fontsize=size, color=line.get_color(), va="center",
+                      arrowprops={"arrowstyle": "-", "color": line.get_color(), "linewidth": 0.5, "alpha": 0.6, "shrinkA": 1, "shrinkB": 3})
+
+
+def _spread(places, sizes):
+    """Places moved apart as little as needed, so that intervals of these sizes about them do not overlap."""
+    order = np.argsort(places)
+    groups = []  # [sum of the wanted bottoms, total size, members]
+    for index in order:
+        groups.append([places[index] - sizes[index] / 2, sizes[index], [index]])
+        while len(groups) > 1 and groups[-2][0] / len(groups[-2][2]) + groups[-2][1] > groups[-1][0] / len(groups[-1][2]):
+            bottom, size, members = groups.pop()
+            groups[-1] = [groups[-1][0] + bottom - len(members) * groups[-1][1], groups[-1][1] + size, groups[-1][2] + members]
+    result = np.zeros(len(places))
+    for bottom, _, members in groups:
+        y = bottom / len(members)
+        for index in members:
+            result[index] = y + sizes[index] / 2
+            y += sizes[index]
+    return result
 
 
 def render_statistics(run, output, titles=None):
@@ -88,12 +106,14 @@ def render_statistics(run, output, titles=None):
         columns, unit = _scaled(columns, unit)
         if title not in ("front", "step size"):
             panel.axhline(0, color="0.6", lw=0.6)
-        lines = [panel.plot(time, values, lw=1.3, label=_short(name))[0] for name, values in columns.items()]
+        for name, values in columns.items():
+            panel.plot(time, values, lw=1.3, label=_short(name))
         panel.set_ylabel(("change of energy" if title == "energy" else title) + f" ({unit})")
         panel.set_xlim(time[0], time[-1] if time[-1] > time[0] else time[0] + 1.)
         panel.grid(alpha=0.3)
-        _label_lines(panel, lines)
     axes.flat[-1].set_xlabel("time (s)")
+    for panel in axes.flat:
+        name_lines(panel)
     save_picture(figure, output)
     return True
 

@@ -7,6 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from scree import maps
+from scree.pictures.panels import save_picture
 from scree.scenarios import evaluation
 
 LOW, HIGH = "#3b75af", "#c8553d"
@@ -51,7 +52,7 @@ def draw_profiles(probabilities, word, n_runs, output):
         axes.grid(alpha=0.3)
     panels[-1, 0].set_xlabel("x (m)")
     panels[0, 0].set_title(f"from {n_runs} runs", fontsize=9, loc="left")
-    maps.save(figure, output)
+    save_picture(figure, output, 120)
 
 
 def draw_exceedance(result, values, output):
@@ -68,7 +69,7 @@ def draw_exceedance(result, values, output):
     axes.set(xlabel=_axis(result), ylabel="runs that reach or exceed it, %", ylim=(0, 108))
     axes.set_title(f"{len(values)} runs; dashed: 5, 25, 50, 75 and 95 % of the runs stay below", fontsize=9, loc="left")
     axes.grid(alpha=0.3)
-    maps.save(figure, output)
+    save_picture(figure, output, 120)
 
 
 def _axis(result):
@@ -104,7 +105,7 @@ def draw_tornado(charts, output):
         axes.set_title(f"base run {base:.4g}" + (f" {result.unit}" if result.unit != "-" else "") + "; blue: lowest value of the parameter, red: highest",
                        fontsize=9, loc="left")
         axes.grid(alpha=0.3, axis="x")
-    maps.save(figure, output)
+    save_picture(figure, output, 120)
 
 
 def _short(value):
@@ -130,7 +131,7 @@ def draw_influences(charts, output):
         axes.grid(alpha=0.3, axis="x")
     panels[0, 0].set_yticks(range(len(labels)), [_label(label) for label in labels], fontsize=8)
     panels[0, 0].invert_yaxis()
-    maps.save(figure, output)
+    save_picture(figure, output, 120)
 
 
 def draw_values(parameters, rows, result, values, output):
@@ -150,4 +151,4 @@ def draw_values(parameters, rows, result, values, output):
         axes.grid(alpha=0.3)
     for axes in panels[:, 0]:
         axes.set_ylabel(_axis(result), fontsize=8)
-    maps.save(figure, output)
+    save_picture(figure, output, 120)

@@ -78,7 +78,7 @@ def read(file):
     fixed = {"Output/Maps/Write": "true", "Output/Graphics": "none", **fixed}
     kind = given.get("sampling", "Sobol")
     study = Study(file, case, pathlib.Path(given.get("results", f"results/{file.stem}")), kind, fixed, parameters, _rows(file, given, kind, parameters),
-                  _thresholds(file, given), given.get("run_out", "distance"), _run_out_thickness(file, given, {**base, **fixed}),
+                  _thresholds(file, given), given.get("run_out", "distance"), settings.number(file, given, "run_out_thickness", float({**base, **fixed}.get("Output/Maps/Least thickness", 0.)), unit="m"),
                   _observed(file, given, {**base, **fixed}))
     _check_values(study, base)
     return study
@@ -97,14 +97,6 @@ def _parameter(file, table, entry, value):
     return Parameter(entry, distribution, table == "factors")
 
 
-def _number(file, given, key, default, least):
-    """A whole number."""
-    value = given.get(key, default)
-    if isinstance(value, bool) or not isinstance(value, int) or value < least:
-        raise settings.fault(file, key, value, f"write a whole number of at least {least}")
-    return value
-
-
 def _rows(file, given, kind, parameters):
     distributions = [one.distribution for one in parameters]
     if kind not in sampling.SAMPLINGS:
@@ -120,16 +112,16 @@ def _rows(file, given, kind, parameters):
             raise settings.fault(file, "quantiles", quantiles, "write two numbers between 0 and 1, the lower one first, such as [0.05, 0.95]")
         return sampling.one_at_a_time(distributions, quantiles)
     if kind == "grid":
-        return sampling.grid(distributions, _number(file, given, "levels", 3, 2))
+        return sampling.grid(distributions, settings.count(file, given, "levels", 3, 2))
     if "runs" not in given:
         raise ValueError(f'{file}: entry "runs" is missing. Write their number, for instance runs = 64')
-    least, n_runs = len(parameters) + 2, _number(file, given, "runs", 0, 1)
+    least, n_runs = len(parameters) + 2, settings.count(file, given, "runs", 0)
     if n_runs < least:
         raise settings.fault(file, "runs", n_runs, f"too few for {len(parameters)} parameters. Write at least {least}; for probabilities 50 or more")
     power = 2**int(np.log2(n_runs))
     if kind == "Sobol" and power != n_runs:
         raise settings.fault(file, "runs", n_runs, f'Sobol\'s sequence is balanced for powers of 2. Write {power} or {2 * power}, or sampling = "Latin hypercube"')
-    return sampling.sampled(kind, distributions, n_runs, _number(file, given, "seed", 1, 0))
+    return sampling.sampled(kind, distributions, n_runs, settings.count(file, given, "seed", 1, 0))
 
 
 def _thresholds(file, given):
@@ -143,13 +135,6 @@ def _thresholds(file, given):
                 raise settings.fault(file, name, value, f"write a number above 0, in {QUANTITIES[name]}", "thresholds")
         found[name] = sorted(set(values))
     return found
-
-
-def _run_out_thickness(file, given, entries):
-    value = given.get("run_out_thickness", float(entries.get("Output/Maps/Least thickness", 0.)))
-    if not settings.is_number(value) or value < 0:
-        raise settings.fault(file, "run_out_thickness", value, "write a number of at least 0, in m")
-    return value
 
 
 def _observed(file, given, entries):

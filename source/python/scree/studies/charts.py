@@ -14,6 +14,7 @@ import matplotlib.pyplot as plt
 import matplotlib.ticker
 import numpy as np
 
+from scree.pictures.tables import name_lines
 from scree.studies.measures import BOUNDS, DECIDING
 
 plt.rcParams.update({"svg.hashsalt": "scree", "svg.fonttype": "none", "font.size": 10, "axes.titlesize": 10, "axes.grid": True, "grid.alpha": 0.3,
@@ -51,42 +52,6 @@ def tick_axis(axis):
     axis.set_major_locator(matplotlib.ticker.LogLocator(subs=subs, numticks=20))
     axis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:.6f}".rstrip("0").rstrip(".") if 0.9e-4 < value < 1e5 else f"{value:.0e}"))
     axis.set_minor_locator(matplotlib.ticker.NullLocator())
-
-
-def name_lines(axes, size=9):
-    """The names of the lines of `axes` in its right margin, each at the height of its line's last point, in its colour."""
-    lines = [line for line in axes.get_lines() if not line.get_label().startswith("_")]
-    axes.figure.canvas.draw()
-    inverse, ends = axes.transAxes.inverted(), []
-    for line in lines:
-        shown = np.isfinite(line.get_xdata().astype(float)) & np.isfinite(line.get_ydata().astype(float))
-        places = inverse.transform(axes.transData.transform(np.column_stack([line.get_xdata(), line.get_ydata()])[shown].astype(float)))
-        inside = places[(places[:, 0] <= 1.001) & (places[:, 1] <= 1.001) & (places[:, 1] >= -0.001)]
-        ends.append(inside[np.argmax(inside[:, 0])] if len(inside) else np.array([1., 1.]))
-    names = [line.get_label() for line in lines]
-    line_height = 1.25 * size / 72 * axes.figure.dpi / axes.get_window_extent().height
-    heights = _spread([end[1] for end in ends], [line_height * (1 + name.count("\n")) for name in names])
-    for line, end, name, height in zip(lines, ends, names, heights):
-        axes.annotate(name, end, (1.04, height), "axes fraction", "axes fraction", fontsize=size, color=line.get_color(), va="center",
-                      arrowprops={"arrowstyle": "-", "color": line.get_color(), "linewidth": 0.5, "alpha": 0.6, "shrinkA": 1, "shrinkB": 3})
-
-
-def _spread(places, sizes):
-    """Places moved apart as little as needed, so that intervals of these sizes about them do not overlap."""
-    order = np.argsort(places)
-    groups = []  # [sum of the wanted bottoms, total size, members]
-    for index in order:
-        groups.append([places[index] - sizes[index] / 2, sizes[index], [index]])
-        while len(groups) > 1 and groups[-2][0] / len(groups[-2][2]) + groups[-2][1] > groups[-1][0] / len(groups[-1][2]):
-            bottom, size, members = groups.pop()
-            groups[-1] = [groups[-1][0] + bottom - len(members) * groups[-1][1], groups[-1][1] + size, groups[-1][2] + members]
-    result = np.zeros(len(places))
-    for bottom, _, members in groups:
-        y = bottom / len(members)
-        for index in members:
-            result[index] = y + sizes[index] / 2
-            y += sizes[index]
-    return result
 
 
 def legend_above(figure, axes, columns):

@@ -110,6 +110,14 @@ def map_table(rows):
             *((name, *(worst(chosen, name) for chosen in groups.values()), f"{BOUNDS[name]:g}") for name in measured)]
 
 
+def grouped(rows, *names):
+    """{values of these columns: rows from the largest cells to the smallest}. Rows with a number of cells only get h = 1/cells."""
+    found = {}
+    for row in sorted(({"h": 1 / row["cells"], **row} if "cells" in row else row for row in rows), key=lambda row: -row["h"]):
+        found.setdefault(tuple(row[name] for name in names), []).append(row)
+    return found
+
+
 # The bounds of the maps and what a default cell is, for the list of the studies.
 BOUNDS_IN_WORDS = f"""Stability maps share their bounds (`BOUNDS` in `source/python/scree/studies/measures.py`).
 A run is stable if it meets all of these:
@@ -167,6 +175,12 @@ def energy_gain(run, energy=None):
     dissipation = run.statistics("Numerical dissipation (J)")
     fall = np.max(np.maximum.accumulate(dissipation) - dissipation)
     return float(fall / scale) if np.isfinite(fall) else np.inf
+
+
+def lost_energy(run):
+    """Numerical dissipation over the fall of the potential energy, both from start to end."""
+    potential = run.statistics("Potential energy (J)")
+    return run.statistics("Numerical dissipation (J)")[-1] / (potential[0] - potential[-1])
 
 
 def mean_oscillation(run, column="p oscillation (-)"):

@@ -12,8 +12,8 @@ import concurrent.futures
 import csv
 import hashlib
 import importlib
+import itertools
 import json
-import math
 import os
 import pathlib
 import shutil
@@ -26,7 +26,6 @@ from scree.studies.pages import TOPICS, index_text, page_text, topic_of
 from scree.studies.study import Run, Variant, prm_files
 
 INTERRUPTED = {-2, -9, -15, 130, 137, 143}  # by SIGINT, SIGKILL, SIGTERM, itself or below `timeout`: such a run is not kept
-START_UP = 1.  # s of a run before its first step
 
 PAGES = ROOT / "doc" / "studies" / "pages"
 
@@ -95,73 +94,31 @@ def make_run(study, variant, folder, arguments):
     return run
 
 
-def expected_seconds(name):
-    """Core-seconds of each variant in the committed table, by its labels as text; {} without a table."""
-    table = PAGES / f"{name}.csv"
-    if not table.exists():
-        return {}
-    return {tuple(map(_text, row.values())): row.get("core-seconds", math.nan) for row in read_table(table)}
-
-
-def _estimate(labels, expected):
-    """Core-seconds of the row that begins with these labels; the mean of the others if it is not there."""
-    words = tuple(map(_text, labels.values()))
-    known = [seconds for row, seconds in expected.items() if row[:len(words)] == words and math.isfinite(seconds)]
-    others = [seconds for seconds in expected.values() if math.isfinite(seconds)]
-    return START_UP + known[0] if known else START_UP + sum(others) / len(others) if others else math.nan
-
-
-class Plan:
-    """The runs of a study, the reference's first; which of them are missing, and how long those will take."""
-
-    def __init__(self, name, study, arguments):
-        self.variants = [variant._replace(entries={**variant.entries, **study.quick_entries}) if arguments.quick else variant
-                         for variant in study.variants if not arguments.quick or study.quick(variant.labels)]
-        reference = study.quick_reference if arguments.quick and study.quick_reference is not None else study.reference
-        self.has_reference = reference is not None
-        if self.has_reference:
-            self.variants.insert(0, Variant({"reference": "reference"}, reference))
-        self.folders = [folder_of(study, variant, arguments.results) for variant in self.variants]
-        self.missing = {folder: variant for variant, folder in zip(self.variants, self.folders)
-                        if arguments.again or load_run(folder, variant.labels) is None}
-        self.jobs = 1 if study.chart.timed else max(1, arguments.jobs // max(variant.ranks for variant in self.variants))
-        expected = expected_seconds(name)
-        self.left = {folder: _estimate(variant.labels, expected) for folder, variant in self.missing.items()}
-
-    @property
-    def seconds_left(self):
-        """nan without earlier times."""
-        known = [seconds for seconds in self.left.values() if math.isfinite(seconds)]
-        return sum(known) * len(self.left) / len(known) / self.jobs if known else math.nan
-
-
 def make_runs(name, study, arguments):
-    """The runs of all variants, in their order, each with the reference's; with progress and the time left."""
-    plan = Plan(name, study, arguments)
-    n_runs, n_missing = len(set(plan.folders)), len(plan.missing)
-    print(f"{name}: {n_runs} runs, {n_runs - n_missing} of them are there" + (f"; {_duration(plan.seconds_left)}" if n_missing else ""), flush=True)
+    """The runs of all variants, in their order, each with the reference's; with progress."""
+    variants = [variant._replace(entries={**variant.entries, **study.quick_entries}) if arguments.quick else variant
+                for variant in study.variants if not arguments.quick or study.quick(variant.labels)]
+    reference = study.quick_reference if arguments.quick and study.quick_reference is not None else study.reference
+    if reference is not None:
+        variants.insert(0, Variant({"reference": "reference"}, reference))
+    folders = [folder_of(study, variant, arguments.results) for variant in variants]
+    missing = {folder: variant for variant, folder in zip(variants, folders) if arguments.again or load_run(folder, variant.labels) is None}
+    jobs = 1 if study.chart.timed else max(1, arguments.jobs // max(variant.ranks for variant in variants))
+    n_runs, done = len(set(folders)), itertools.count(1)
+    print(f"{name}: {n_runs} runs, {n_runs - len(missing)} of them are there", flush=True)
 
     def make(folder):
-        variant = plan.missing[folder]
-        run = make_run(study, variant, folder, arguments)
-        del plan.left[folder]
-        print(f"  {n_missing - len(plan.left)} of {n_missing}: " + ", ".join(f"{key} {value}" for key, value in variant.labels.items())
-              + f": {folder.name}" + ("" if run.ended else f" (ended with {run.exit_code})")
-              + (f"; {_duration(plan.seconds_left)}" if plan.left else ""), flush=True)
+        run = make_run(study, missing[folder], folder, arguments)
+        print(f"  {next(done)} of {len(missing)}: " + ", ".join(f"{key} {value}" for key, value in run.labels.items())
+              + f": {folder.name}" + ("" if run.ended else f" (ended with {run.exit_code})"), flush=True)
 
-    with concurrent.futures.ThreadPoolExecutor(plan.jobs) as pool:
-        list(pool.map(make, plan.missing))
-    runs = [load_run(folder, variant.labels) for variant, folder in zip(plan.variants, plan.folders)]
-    reference = runs.pop(0) if plan.has_reference else None
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        list(pool.map(make, missing))
+    runs = [load_run(folder, variant.labels) for variant, folder in zip(variants, folders)]
+    of_reference = runs.pop(0) if reference is not None else None
     for run in runs:
-        run.reference = reference
+        run.reference = of_reference
     return runs
-
-
-def _duration(seconds):
-    if not math.isfinite(seconds):
-        return "no earlier times to tell how long it takes"
-    return f"about {seconds / 60:.0f} min left" if seconds > 90 else f"about {max(1, seconds):.0f} s left"
 
 
 # Tables ---------------------------------------------------------------------------------------------------------------
@@ -271,10 +228,6 @@ def run_studies(arguments):
         raise ValueError(f"{arguments.program or 'scree'} is not there: build it (sh doc/quickstart.sh), or name it with --program")
     arguments.program, arguments.results = pathlib.Path(arguments.program or "").resolve(), arguments.results.resolve()
     names = names_of_studies() if "all" in arguments.names else arguments.names
-    if len(names) > 1 and not arguments.page:
-        plans = [Plan(name, module_of(name).STUDY, arguments) for name in names]
-        seconds = sum(plan.seconds_left for plan in plans if math.isfinite(plan.seconds_left))
-        print(f"{len(names)} studies, {sum(len(plan.missing) for plan in plans)} runs are missing; {_duration(seconds)}", flush=True)
     held = [run_study(name, arguments) for name in names]
     if not arguments.quick:
         for file, text in page_texts().items():

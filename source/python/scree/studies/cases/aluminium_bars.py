@@ -12,7 +12,8 @@ The base is fixed, or has the friction of the bars among themselves; mu(I) on a 
 
 import numpy as np
 
-from scree.studies.charts import RunCurves, name_lines
+from scree.pictures.tables import name_lines
+from scree.studies.charts import RunCurves
 from scree.studies.study import Claim, Study, axis, product, reference_rows
 
 BAR = 1.5e-3  # m

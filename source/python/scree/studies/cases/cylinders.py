@@ -15,7 +15,8 @@ import math
 import numpy as np
 
 from scree.studies.cases.run_out_limits import DIAMETER, REPOSE, TRIAXIAL, WITH, WITHOUT, WIDTH, Limit, volume_below
-from scree.studies.charts import Curves, name_lines
+from scree.pictures.tables import name_lines
+from scree.studies.charts import Curves
 from scree.studies.study import Claim, Study, Variant
 
 SIZES = {1: (8, 12, 16), 2: (8, 12)}

@@ -12,7 +12,9 @@ import math
 
 import numpy as np
 
+from scree.studies.cases import dry_slope
 from scree.studies.charts import WorkPrecision
+from scree.studies.measures import lost_energy
 from scree.studies.precision import DEFAULTS, LimitFit, at_finest, costs, curve, ratio, table
 from scree.studies.study import Claim, Study, axis, product
 
@@ -52,15 +54,9 @@ def lengths(run):
 
 
 def measure(run):
-    own, exact = lengths(run), lengths(run.reference)
-    scale = np.abs(exact[:, -1] - exact[:, 0])
-    late = run.time > 0.19
-    errors = np.sqrt(np.mean(((own - exact)[:, late] / scale[:, None])**2, axis=1))
-    released = run.statistics("Potential energy (J)")[0] - run.statistics("Potential energy (J)")[-1]
-    return {"error": math.sqrt(np.mean(errors**2)), "error of front 90 %": errors[0], "error of front 99 %": errors[1],
-            "error of centre of mass": errors[2], "tip at the end, m": run.statistics("Water tip (m)")[-1],
+    return {**dry_slope.errors(run, lengths(run), lengths(run.reference), 0.19), "tip at the end, m": run.statistics("Water tip (m)")[-1],
             "largest volume error": np.max(run.statistics("Volume error (-)")),
-            "numerical dissipation": run.statistics("Numerical dissipation (J)")[-1] / released,
+            "numerical dissipation": lost_energy(run),
             "CG iterations": np.mean(run.statistics("CG iterations per step")[1:]),
             "preconditioners a step": run.statistics("Preconditioners built")[-1] / run.statistics("Step")[-1]}
 

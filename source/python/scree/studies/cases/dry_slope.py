@@ -17,7 +17,7 @@ import math
 import numpy as np
 
 from scree.studies.charts import WorkPrecision
-from scree.studies.measures import energy_gain
+from scree.studies.measures import energy_gain, lost_energy
 from scree.studies.precision import DEFAULTS, LimitFit, at_finest, costs, curve, ratio, table
 from scree.studies.study import Claim, Study, axis, product
 
@@ -45,18 +45,19 @@ def lengths(run, gravity=9.81):
     return np.array([run.statistics("Front 90 % (m)"), run.statistics("Front 99 % (m)"), run.statistics("Potential energy (J)") / (mass * gravity)])
 
 
-def measure(run):
-    own, exact = lengths(run), lengths(run.reference)
+def errors(run, own, exact, since):
+    """Columns of the errors of three lengths, over the displacement of each in the reference, from a time on."""
     scale = np.abs(exact[:, -1] - exact[:, 0])
-    late = run.time > 0.45
-    errors = np.sqrt(np.mean(((own - exact)[:, late] / scale[:, None])**2, axis=1))
-    dissipation = run.statistics("Numerical dissipation (J)")
+    found = np.sqrt(np.mean(((own - exact)[:, run.time > since] / scale[:, None])**2, axis=1))
+    return {"error": math.sqrt(np.mean(found**2)), "error of front 90 %": found[0], "error of front 99 %": found[1], "error of centre of mass": found[2]}
+
+
+def measure(run):
+    own = lengths(run)
     released = run.statistics("Potential energy (J)")[0] - run.statistics("Potential energy (J)")[-1]
-    return {"error": math.sqrt(np.mean(errors**2)), "error of front 90 %": errors[0], "error of front 99 %": errors[1],
-            "error of centre of mass": errors[2], "front 99 % at the end, m": own[1, -1],
+    return {**errors(run, own, lengths(run.reference), 0.45), "front 99 % at the end, m": own[1, -1],
             "mean oscillation": np.mean(run.statistics("Stress oscillation (-)")[1:]),
-            "numerical dissipation": dissipation[-1] / released,
-            "energy gained": energy_gain(run, released)}
+            "numerical dissipation": lost_energy(run), "energy gained": energy_gain(run, released)}
 
 
 def verdict(rows):

@@ -9,7 +9,8 @@ import math
 
 import numpy as np
 
-from scree.studies.charts import RunCurves, name_lines
+from scree.pictures.tables import name_lines
+from scree.studies.charts import RunCurves
 from scree.studies.study import Claim, Study, axis, reference_rows
 
 WIDTH, GRAVITY = 1., 9.81  # a, m; m/s^2

@@ -15,6 +15,7 @@ import math
 
 import numpy as np
 
+from scree.closed_forms import oedometric_modulus
 from scree.studies.charts import Curves, tick_axis
 from scree.studies.study import Claim, Study, Variant, transfer
 
@@ -36,13 +37,9 @@ SUBMERGED = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-12]
 # Cases ----------------------------------------------------------------------------------------------------------------
 
 
-def oedometric(young):
-    return young * (1 - POISSON) / ((1 + POISSON) * (1 - 2 * POISSON))
-
-
 def group(height, young, conductivity):
     """Time of drainage over time of motion, -."""
-    return height**2 * WATER * GRAVITY / (conductivity * oedometric(young)) / math.sqrt(height / GRAVITY)
+    return height**2 * WATER * GRAVITY / (conductivity * oedometric_modulus(young, POISSON)) / math.sqrt(height / GRAVITY)
 
 
 def common(height, cells, length, top):
@@ -66,7 +63,7 @@ def submerged(height, young):
 
 
 def loaded(height, young, cells=10):
-    rate = STRAIN * oedometric(young) / (END * math.sqrt(height / GRAVITY))  # Pa/s
+    rate = STRAIN * oedometric_modulus(young, POISSON) / (END * math.sqrt(height / GRAVITY))  # Pa/s
     width = 2 * height / cells
     return {**common(height, cells, 2 / cells, 1.2), "Gravity": "0, 0", "Stabilisation/F-bar": "none", "Soil/Region": f"y < {height:g}",
             "Soil/Material": "linear elastic", "Soil/Linear elastic/Young's modulus": young, "Soil/Linear elastic/Poisson's ratio": POISSON,

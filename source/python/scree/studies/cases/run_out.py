@@ -17,7 +17,9 @@ import math
 
 import numpy as np
 
-from scree.studies.charts import Curves, name_lines
+from scree.pictures.tables import name_lines
+from scree.studies.charts import Curves
+from scree.studies.measures import grouped, lost_energy
 from scree.studies.study import Claim, Study, Variant
 
 FIXED, FRICTION, LOW_PIC = "fixed", "friction", "friction, PIC rate 1/s"
@@ -58,11 +60,10 @@ def front_of_depth(points, depth, width=0.1):
 
 def measure(run):
     points = run.points()
-    potential = run.statistics("Potential energy (J)")
     return {**{f"front {percent:g} % (m)": front(points, percent) for percent in QUANTILES},
             "front by depth 0.05 m (m)": front_of_depth(points, 0.05),
             "centre of mass (m)": np.average(points.positions[:, 0], weights=points.arrays["mass"]),
-            "energy lost numerically (-)": run.statistics("Numerical dissipation (J)")[-1] / (potential[0] - potential[-1])}
+            "energy lost numerically (-)": lost_energy(run)}
 
 
 def variant(scene, soil, treatment, cells_per_metre):
@@ -79,11 +80,7 @@ def variant(scene, soil, treatment, cells_per_metre):
 
 
 def curves(rows):
-    """{(scene, soil, treatment): rows from the largest cells to the smallest}."""
-    found = {}
-    for row in sorted(rows, key=lambda row: -row["h"]):
-        found.setdefault((row["scene"], row["soil"], row["treatment"]), []).append(row)
-    return found
+    return grouped(rows, "scene", "soil", "treatment")
 
 
 def fit(h, values, order):

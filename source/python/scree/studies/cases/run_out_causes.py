@@ -6,6 +6,7 @@ The bars show by how much the front advances from the larger to the smaller cell
 
 from scree.studies.cases import run_out
 from scree.studies.charts import Curves
+from scree.studies.measures import grouped
 from scree.studies.study import Claim, Study, transfer
 
 COLUMN_CAUSES = {
@@ -37,10 +38,7 @@ VARIANTS = [variant for base in (run_out.FIXED, run_out.FRICTION) for name, entr
 
 def pairs(rows):
     """{(scene, base, what is changed): (row of the largest cells, row of the smallest)}."""
-    found = {}
-    for row in sorted(rows, key=lambda row: -row["h"]):
-        found.setdefault((row["scene"], row["treatment"], row["changed"]), []).append(row)
-    return {key: (group[0], group[-1]) for key, group in found.items() if len(group) > 1}
+    return {key: (group[0], group[-1]) for key, group in grouped(rows, "scene", "treatment", "changed").items() if len(group) > 1}
 
 
 def advance(pair, percent):

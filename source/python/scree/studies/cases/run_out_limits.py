@@ -34,7 +34,9 @@ import re
 import numpy as np
 
 from scree.studies.cases.run_out import Limit
-from scree.studies.charts import Curves, name_lines
+from scree.pictures.tables import name_lines
+from scree.studies.charts import Curves
+from scree.studies.measures import grouped, lost_energy
 from scree.studies.study import Claim, Study, Variant, reference_rows
 
 GRAVITY = 9.81
@@ -103,20 +105,15 @@ def front_of_depth(points, least, start, width, step):
 
 def measure(run):
     points = run.points()
-    potential = run.statistics("Potential energy (J)")
     last = np.interp(5 / 6 * run.time[-1], run.time, run.statistics("Front 99 % (m)"))
     return {FRONT: front_of_depth(points, 0.02, 1., WIDTH, 0.0025), MASS: run.statistics("Front 90 % (m)")[-1],
             TIP: run.statistics("Front 99 % (m)")[-1], HEIGHT: depth(points, 0., 2 * WIDTH)[0],
             "99 % in the last sixth": run.statistics("Front 99 % (m)")[-1] - last,
-            "energy lost numerically": run.statistics("Numerical dissipation (J)")[-1] / (potential[0] - potential[-1])}
+            "energy lost numerically": lost_energy(run)}
 
 
 def curves(rows):
-    """{(a, transfer, friction, angle, points, grains): rows from the largest cells to the smallest}."""
-    found = {}
-    for row in sorted(rows, key=lambda row: row["cells"]):
-        found.setdefault(tuple(row[name] for name in ("a", "transfer", "friction", "angle", "points", "grains")), []).append({**row, "h": 1 / row["cells"]})
-    return found
+    return grouped(rows, "a", "transfer", "friction", "angle", "points", "grains")
 
 
 def halving_of(group, name, cells):

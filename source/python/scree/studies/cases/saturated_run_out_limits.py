@@ -25,7 +25,9 @@ import numpy as np
 
 from scree.studies.cases.run_out import Limit
 from scree.studies.cases.run_out_limits import HEIGHT, MASS, TIP, TRANSFERS, depth, front_of_depth, halving_of
-from scree.studies.charts import Curves, name_lines
+from scree.pictures.tables import name_lines
+from scree.studies.charts import Curves
+from scree.studies.measures import grouped, lost_energy
 from scree.studies.study import Claim, Study, Variant
 
 COLUMN, SLOPE = "column", "slope"
@@ -53,19 +55,14 @@ def variants():
 
 def measure(run):
     points, height = run.points(), HEIGHTS[run.labels["scene"]]
-    potential = run.statistics("Potential energy (J)")
     return {FRONT: front_of_depth(points, 0.02 * height, 0.5 * height, 0.05 * height, 0.0025 * height), MASS: run.statistics("Front 90 % (m)")[-1],
             TIP: run.statistics("Front 99 % (m)")[-1], HEIGHT: depth(points, 0., 0.1 * height)[0],
             "last point (m)": points.positions[:, 0].max(), "p oscillation": np.median(run.statistics("p oscillation (-)")[1:]),
-            "energy lost numerically": run.statistics("Numerical dissipation (J)")[-1] / (potential[0] - potential[-1])}
+            "energy lost numerically": lost_energy(run)}
 
 
 def curves(rows):
-    """{(scene, base, transfer): rows from the largest cells to the smallest}."""
-    found = {}
-    for row in sorted(rows, key=lambda row: row["cells"]):
-        found.setdefault((row["scene"], row["base"], row["transfer"]), []).append({**row, "h": 1 / row["cells"]})
-    return found
+    return grouped(rows, "scene", "base", "transfer")
 
 
 def number(limit):

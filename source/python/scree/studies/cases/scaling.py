@@ -12,7 +12,8 @@ These are numbers of a common cluster network, not measured here; the imbalance 
 import math
 import re
 
-from scree.studies.charts import Curves, name_lines, tick_axis
+from scree.pictures.tables import name_lines
+from scree.studies.charts import Curves, tick_axis
 from scree.studies.study import Claim, Study, Variant, compiled, transfer
 
 QUIET = {"Output/Interval": 100, "Output/Graphics": "none", "Output/Statistics interval": 100}

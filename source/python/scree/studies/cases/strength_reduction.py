@@ -31,7 +31,8 @@ import csv
 import math
 
 from scree.closed_forms import slip_circle_factor
-from scree.studies.charts import Curves, name_lines
+from scree.pictures.tables import name_lines
+from scree.studies.charts import Curves
 from scree.studies.study import Claim, Study, Variant
 
 HEIGHT, WEIGHT = 10., 2000 * 9.81 * 10  # m, and gamma H in Pa

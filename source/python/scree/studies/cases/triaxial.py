@@ -8,7 +8,7 @@ Strains are logarithmic, compression positive, and q = sigma_1 - sigma_3; undrai
 """
 import numpy as np
 
-from scree import plot_element
+from scree import results
 from scree.studies.charts import RunCurves, legend_above, tick_axis
 from scree.studies.study import Claim, Study, axis, product
 
@@ -21,7 +21,7 @@ def critical_volume(pressure):
 
 
 def measure(run):
-    columns = plot_element.read(run.folder / "table.txt")
+    columns = results.read_element_table(run.folder / "table.txt")
     strain, ratio, pressure = columns["strain"], columns["stress_ratio"], columns["mean_pressure"]
     peak = np.argmax(ratio)
     return {"peak stress ratio": ratio[peak], "strain at peak": strain[peak], "stress ratio at the end": ratio[-1], "effective stress at the end (kPa)": 1e-3 * pressure[-1],
@@ -64,7 +64,7 @@ def curves(run):
     """Of the tests from 100 kPa: {"panel: soil, path": (x, y)}."""
     if run.labels["confining pressure (kPa)"] != 100:
         return {}
-    columns, name = plot_element.read(run.folder / "table.txt"), f"{run.labels['soil']}, {run.labels['path']}"
+    columns, name = results.read_element_table(run.folder / "table.txt"), f"{run.labels['soil']}, {run.labels['path']}"
     strain, pressure = 100 * columns["strain"], 1e-3 * columns["mean_pressure"]
     return {f"strength: {name}": (strain, columns["stress_ratio"]), f"volume: {name}": (strain, -100 * np.log(columns["volume_ratio"])),
             f"path: {name}": (pressure, 1e-3 * columns["deviator_stress"]), f"state: {name}": (pressure, columns["specific_volume"])}
