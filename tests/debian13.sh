@@ -49,6 +49,8 @@ use_machine()
   done
 }
 use_machine "$root"
+chroot "$root" apt-get -o APT::Update::Error-Mode=any -o Acquire::Retries=0 update >"$folder/update.log" 2>&1 ||
+  did_not_run "since the packages at $mirror cannot be reached: $(tail -n 1 "$folder/update.log")"
 # What an interrupted run has left.
 chroot "$root" sh -c 'dpkg --configure -a && apt-get -y -f install' >"$folder/repair.log" 2>&1
 
