@@ -60,12 +60,12 @@ minutes_of_debian13=12
 debian13()
 {
   minutes=$((($(date +%s) - begin) / 60))
-  left=$((39 - minutes))
+  left=$((38 - minutes))
   if [ "$left" -lt "$minutes_of_debian13" ]; then
     echo "Debian trixie: DID NOT RUN, since the other tests took $minutes of 40 min."
     return 0
   fi
-  timeout "${left}m" sh "$root/tests/debian13.sh" "$root/build-debian13" quickstart
+  timeout -k 20 "${left}m" sh "$root/tests/debian13.sh" "$root/build-debian13" quickstart
   case $? in
     0 | 77) ;;
     124) echo "Debian trixie: DID NOT RUN to its end within $left min." ;;
