@@ -1,9 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # sh tests/run.sh                      builds, runs the quick tests (label quick)
-# sh tests/run.sh --full               the tests with the label full, and the short cases of tests/debug in a Debug build
+# sh tests/run.sh --full               the tests with the label full, and the short cases of tests/debug in a Debug build; as root also the quick
+#                                      start in a Debian 13, if its packages can be downloaded and there is time
 # sh tests/run.sh -R nor_sand          those of all tests that these arguments of ctest name, whatever their label
 
+begin=$(date +%s)
 scope=quick
 if [ "$1" = --full ]; then
   scope=full
@@ -17,6 +19,13 @@ fi
 test_packages="clang-format shellcheck pyflakes3 doxygen python3-sphinx python3-myst-parser python3-sphinx-rtd-theme libjs-mathjax python3-sphinxcontrib.bibtex python3-pandas snakemake"
 # shellcheck source=doc/setup.sh
 . "$(dirname -- "$0")/../doc/setup.sh"
+
+# Without these, tests say that they did not run: a browser for the site, and the maker of a Debian 13.
+if [ "$scope" = full ] && [ "$(id -u)" -eq 0 ]; then
+  for program in chromium debootstrap; do
+    command -v $program >/dev/null || DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $program >/dev/null 2>&1
+  done
+fi
 
 # Two tests at a time on whatever cores there are: waiting ranks give way.
 export OMPI_MCA_mpi_yield_when_idle=1
@@ -46,6 +55,24 @@ summary()
   grep 'tests passed' "$root/$1/tests.log" 2>/dev/null || echo "no tests were found"
 }
 
+# The quick start in a Debian 13, which needs MINUTES: all tests together end within 40 minutes.
+minutes_of_debian13=12
+debian13()
+{
+  minutes=$((($(date +%s) - begin) / 60))
+  left=$((38 - minutes))
+  if [ "$left" -lt "$minutes_of_debian13" ]; then
+    echo "Debian trixie: DID NOT RUN, since the other tests took $minutes of 40 min."
+    return 0
+  fi
+  timeout -k 20 "${left}m" sh "$root/tests/debian13.sh" "$root/build-debian13" quickstart
+  case $? in
+    0 | 77) ;;
+    124) echo "Debian trixie: DID NOT RUN to its end within $left min." ;;
+    *) return 1 ;;
+  esac
+}
+
 rm -f "$root/build/tests.log" "$root/build-debug/tests.log"
 failed=0
 if [ "$scope" = quick ]; then
@@ -58,10 +85,17 @@ else
   [ -f "$root/build-debug/CMakeCache.txt" ] || debug_options=-DSCREE_DEBUG_INFO=OFF
   configure_scree build-debug Debug ${debug_options:+"$debug_options"} && run_tests build-debug -L '^debug$' "$@" || failed=1
 fi
+system=
+if [ "$scope" = full ] && [ $# -eq 0 ]; then
+  system=$(debian13) || failed=1
+  # Only its logs are kept.
+  rm -rf "$root/build-debian13/root" "$root/build-debian13/system" "$root/build-debian13/is_made"
+fi
 [ -f "$root/build/tests.log" ] || [ -f "$root/build-debug/tests.log" ] || failed=1
 
 echo
 [ "$failed" -eq 0 ] || echo "FAILED: see above, or build/tests.log and build-debug/tests.log"
+[ -z "$system" ] || echo "$system"
 [ "$scope" = quick ] || echo "Debug:   $(summary build-debug)"
 echo "Release: $(summary build)"
 exit "$failed"

@@ -67,9 +67,6 @@ namespace scree
       dispatch(std::integral_constant<int, 3>());
   }
 
-  template void Transfer<2>::to_grid(const SoilBody<2> &, NodalField<2> &) const;
-  template void Transfer<3>::to_grid(const SoilBody<3> &, NodalField<3> &) const;
-
 
   namespace
   {

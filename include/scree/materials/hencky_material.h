@@ -356,7 +356,7 @@ namespace scree
 
   template <int dim, typename Law>
   template <typename Number, typename Indices>
-  DEAL_II_ALWAYS_INLINE inline HenckyMaterial<dim, Law>::Lanes<Number>
+  DEAL_II_ALWAYS_INLINE inline typename HenckyMaterial<dim, Law>::template Lanes<Number>
   HenckyMaterial<dim, Law>::read(const Indices &indices,
                                  const unsigned int n,
                                  const MaterialPoints<dim> &points,

@@ -55,9 +55,9 @@ namespace scree
     template <typename Entries>
     Entries &of() const
     {
-      for (auto &[name, entries] : all)
-        if (typeid(*entries) == typeid(Entries))
-          return static_cast<Entries &>(*entries);
+      for (auto &[name, pointer] : all)
+        if (LawEntries &entries = *pointer; typeid(entries) == typeid(Entries))
+          return static_cast<Entries &>(entries);
       throw dealii::ExcMessage("This law is not registered.");
     }
 
