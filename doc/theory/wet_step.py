@@ -96,18 +96,15 @@ def quadrature(d, corners):
     return shapes(x, cell.astype(int)), weight[:, 0]
 
 
-def pressure_pair(d, corners, volume_of_water, inertia):
+def pressure_pair(d, corners, volume_of_water):
     """B of u, and of q beside it, as [component, vertex, node]; int phi_i; cells of Omega, their volumes (Divergence and force).
 
     Gamma consists of walls that hold u . nu = 0: its integral changes their reactions alone and is left out."""
     at, weight = quadrature(d, corners)
-    cells, of_cell = np.unique(at.number, return_inverse=True)
+    B_u = -np.array([at.psi.T*weight@slope for slope in at.slopes])
+    cells = np.unique(at.number)
     in_cell = weight*(at.number == cells[:, None])
     phi, volume = in_cell@at.phi, in_cell.sum(1)
-    mean = (phi > 0)*inertia/((phi > 0)@inertia)[:, None]  # Light nodes
-    kept = np.minimum(1, inertia/np.maximum(.01*phi.sum(0), 1e-300))
-    extend = lambda factors, mean: factors*kept + (factors*(1 - kept)).sum(1, keepdims=True)*mean
-    B_u = -np.array([at.psi.T*weight@extend(slope, mean[of_cell]) for slope in at.slopes])
     centre = shapes(in_cell@at.x/volume[:, None], np.stack([cells % CELLS[0], cells//CELLS[0]], 1))
     of_node, delta = phi.sum(0), 0
     rest = np.clip(volume_of_water - of_node, -of_node/2, of_node/2)  # Delta_i
@@ -115,7 +112,7 @@ def pressure_pair(d, corners, volume_of_water, inertia):
         share = phi*rest/np.maximum(of_node, 1e-300)
         passed_on = phi*(share.sum(1)/volume)[:, None]
         delta, rest = delta + share - passed_on, passed_on.sum(0)
-    return B_u, np.array([slope.T@extend(delta, mean) for slope in centre.psi_slopes]), of_node, centre, volume
+    return B_u, np.array([slope.T@delta for slope in centre.psi_slopes]), of_node, centre, volume
 
 
 def inverse(mass, C, held):
@@ -141,10 +138,10 @@ def step(soil, water):
     force = of_stress[..., None]*[1, 0] + mass[:, None]*[[0], [-GRAVITY]]
     # 2. Free surface, p^n, and B. With u = v_s + q and q = n_i (v_w - v_s), B acts on v_s and v_w; n_i = 1: water alone.
     d, T, p, corners = free_surface(water, w, n)
-    B_u, B_q, filled, centre, volume = pressure_pair(d, corners, w.phi.T@(water.V*n), mass.sum(1)/WATER_DENSITY)
+    B_u, B_q, filled, centre, volume = pressure_pair(d, corners, w.phi.T@(water.V*n))
     B = np.stack([(n_i < 1)*(B_u - n_i*(B_u + B_q)), n_i*(B_u + B_q)])  # [phase, component, vertex, node]
-    # 3. Predictor. Pressure acts on a least mass of a phase, and p^n on less in proportion (Light nodes).
-    pressed = np.where(mass > 0, np.maximum(mass, np.minimum(.01*WATER_DENSITY*filled, mass.sum(1))[:, None]), 0)
+    # 3. Predictor. Pressure acts on a least mass, and p^n on lighter nodes in proportion (Light nodes).
+    pressed = np.where(mass > 0, np.maximum(mass, .01*WATER_DENSITY*filled[:, None]), 0)
     force -= (mass/np.maximum(pressed, 1e-300))[:, None]*np.einsum("kcai,a->ick", B, p)
     v_n = np.einsum("ickl,icl->ick", inverse(mass, excess, np.zeros_like(HELD)), momentum)
     v = np.einsum("ickl,icl->ick", inverse(mass, C, HELD), momentum + dt*force)

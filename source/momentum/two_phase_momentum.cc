@@ -225,10 +225,8 @@ namespace scree
           continue;
         const PressedNode<dim> pressed{ node, 1. - nodes.pores[node][PoreField<dim>::grain_fraction], {}, 0 };
         const SoilAndWater<dim> of_phases = PressedNodes<dim>::forces(pressed, impulses[node]);
-        // Where both are light, the pair leaves them little of the pressure (PressurePair).
-        const double least = std::min(closures::least_inertia * water_density * pressure.filled_volume(node),
-                                      nodes.soil[node][Field<dim>::mass] + nodes.water[node][Field<dim>::mass]);
-        const auto add     = [&](double *values, double &share, const Tensor<1, dim> &impulse) {
+        const double least                = closures::least_inertia * water_density * pressure.filled_volume(node);
+        const auto add                    = [&](double *values, double &share, const Tensor<1, dim> &impulse) {
           const double mass = values[Field<dim>::mass];
           share             = mass > 0. ? std::max(least / mass, 1.) : 1.;
           if (mass > 0.)

@@ -289,18 +289,6 @@ namespace scree
       }
   }
 
-
-  template <int dim>
-  void FilledPart<dim>::extend(Cell &cell, const NodeRow *kept, const NodeRow *weights)
-  {
-    const unsigned int begin = all_integrals.size(), n_of_cell = (dim * n_vertices + 1) * n_rows;
-    all_integrals.resize(begin + n_of_cell);
-    std::copy_n(&all_integrals[cell.integrals], n_of_cell, &all_integrals[begin]);
-    cell.integrals = begin;
-    for (unsigned int k = 0; k < dim * n_vertices; ++k)
-      extend_rows(&all_integrals[begin + k * n_rows], kept, weights, n_rows);
-  }
-
   template class FilledPart<2>;
   template class FilledPart<3>;
 } // namespace scree

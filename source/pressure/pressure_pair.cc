@@ -30,7 +30,7 @@ namespace scree
   template <int dim>
   PressurePair<dim>::PressurePair(const BackgroundGrid<dim> &grid,
                                   const NodeNumbering<dim> &vertices,
-                                  FilledPart<dim> &part)
+                                  const FilledPart<dim> &part)
       : grid(grid)
       , vertices(vertices)
       , part(part)
@@ -50,8 +50,7 @@ namespace scree
 
 
   template <int dim>
-  void PressurePair<dim>::find_moments(const std::function<double(unsigned int node)> &volume_of_water,
-                                       const std::function<double(unsigned int node)> &inertia_of_node)
+  void PressurePair<dim>::find_moments(const std::function<double(unsigned int node)> &volume_of_water)
   {
     const unsigned int n = grid.n_nodes_1d(), n_rows = part.n_rows;
     const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
@@ -73,7 +72,6 @@ namespace scree
         double *defect         = defects[node];
         const double of_points = volume_of_water(node), most = largest_defect * defect[volume];
         defect[surplus] = std::clamp(of_points - defect[volume], -most, most);
-        defect[inertia] = inertia_of_node(node);
       }
     moments.assign(part.cells().size() * n_rows, NodeRow{});
     for (unsigned int pass = 0; pass < n_passes; ++pass)
@@ -110,46 +108,6 @@ namespace scree
         for (const unsigned int node : defects.active_nodes())
           defects[node][surplus] = passed_on[node][surplus];
       }
-    extend_to_light_nodes();
-  }
-
-
-  template <int dim>
-  void PressurePair<dim>::extend_to_light_nodes()
-  {
-    const unsigned int n = grid.n_nodes_1d(), n_rows = part.n_rows;
-    defects.update_ghosts();
-    NodeRow *of_cell = moments.data();
-    for (auto &cell : part.cells())
-      {
-        NodeRow kept[9], weights[9]{};
-        NodeRow sum_of_weights{};
-        bool is_light = false;
-        for (unsigned int r = 0; r < n_rows; ++r)
-          {
-            kept[r] = NodeRow{ 1., 1., 1., 1. };
-            for (unsigned int i = 0; i < n; ++i)
-              {
-                const double *defect = defects[grid.nodes(cell.cell)[r * n + i]];
-                weights[r][i]        = defect[inertia];
-                if (const double least = closures::least_inertia * defect[volume]; defect[inertia] < least)
-                  {
-                    kept[r][i] = defect[inertia] / least;
-                    is_light   = true;
-                  }
-              }
-            sum_of_weights += weights[r];
-          }
-        if (is_light)
-          {
-            for (unsigned int r = 0; r < n_rows; ++r)
-              weights[r] /= sum(sum_of_weights);
-            part.extend(cell, kept, weights);
-            extend_rows(of_cell, kept, weights, n_rows);
-          }
-        of_cell += n_rows;
-      }
-    defects.clear_ghosts();
   }
 
 

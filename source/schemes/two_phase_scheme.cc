@@ -100,14 +100,10 @@ namespace scree
       return water_field[node][NodalField<dim>::mass] / transfer.water_density() +
              pores[node][PoreField<dim>::local_solid_volume];
     };
-    const auto inertia = [&](const unsigned int node) {
-      return (soil.field[node][NodalField<dim>::mass] + water_field[node][NodalField<dim>::mass]) /
-             transfer.water_density();
-    };
     const auto holds = [&](const unsigned int node, const unsigned int face) {
       return wall_gaps.holds_water(node, face);
     };
-    pressure.find_pair(mixture, volume_of_water, inertia, holds, time_step);
+    pressure.find_pair(mixture, volume_of_water, holds, time_step);
     momentum.find_flux_inertia(nodes, excess, time_step);
     momentum.add_pressure_forces(nodes, pressure, time_step);
   }

@@ -24,20 +24,6 @@ namespace scree
     return (row[0] + row[1]) + row[2];
   }
 
-  /// The transpose of u_i <- kept_i u_i + (1 - kept_i) sum_j weights_j u_j, in place.
-  inline void extend_rows(NodeRow *factors, const NodeRow *kept, const NodeRow *weights, const unsigned int n_rows)
-  {
-    NodeRow given{};
-    for (unsigned int r = 0; r < n_rows; ++r)
-      {
-        given += factors[r] - kept[r] * factors[r];
-        factors[r] *= kept[r];
-      }
-    const double to_all = given[0] + given[1] + given[2];
-    for (unsigned int r = 0; r < n_rows; ++r)
-      factors[r] += to_all * weights[r];
-  }
-
   /// A row of two or three numbers, filled up with 0.
   template <std::size_t n>
   NodeRow make_row(const std::array<double, n> &values)

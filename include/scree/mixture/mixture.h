@@ -16,9 +16,9 @@ namespace scree
     /// Smallest porosity in the flow between grains: where grains crowd, water shall not race.
     constexpr double least_porosity = 0.01;
 
-    /// Mass of a node, over that of water that would fill its surroundings as far as B integrates, below which B sees
-    /// the flow of its cells in place of its own (PressurePair). Without it points that lie on a floor leave nodes
-    /// above them next to no mass, which p drives to 1e6 m/s: their gradient is not small.
+    /// Inertia of a phase that the pressure moves at a node, over that of water that would fill its surroundings as far
+    /// as B integrates. Without it points that lie on a floor leave nodes above them next to no mass, which p drives
+    /// to 1e6 m/s: their gradient is not small.
     constexpr double least_inertia = 0.01;
 
     /// Mass of the nodes at a segment of the ground over that inside soil, from which on the ground acts on dry soil

@@ -32,8 +32,8 @@ namespace scree
     void find_flux_inertia(const MixtureNodes<dim> &nodes, const NodalField<dim> &excess, const double time_step);
 
     /// Adds the force of the old pressure to the sums of soil and water, and finds what they count as where the
-    /// pressure moves them (PoreField): a phase beside the other one, at least a part of the water that would fill what
-    /// B integrates over (closures::least_inertia).
+    /// pressure moves them (PoreField): at least a part of the water that would fill what B integrates over
+    /// (closures::least_inertia).
     void add_pressure_forces(const MixtureNodes<dim> &nodes, PorePressure<dim> &pressure, const double time_step) const;
 
     /// The nodes as the pressure sees them, after predict().

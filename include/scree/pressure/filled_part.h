@@ -52,24 +52,12 @@ namespace scree
       return with_water;
     }
 
-    /// Write access, for extend().
-    std::vector<Cell> &cells()
-    {
-      return with_water;
-    }
-
     /// Integrals of psi_a d phi_i/dx_c over the part of a cell, less those of psi_a phi_i nu_c over the ground and
     /// the walls that bound it, m^(dim-1): rows of nodes i, by axis c and vertex a.
     const NodeRow *divergence(const Cell &cell, const unsigned int axis, const unsigned int vertex) const
     {
       return &all_integrals[cell.integrals + (axis * n_vertices + vertex) * n_rows];
     }
-
-    /// Replaces the flow at the nodes of a cell, as divergence() sees it: what each node does not keep of its own, it
-    /// takes from the mean.
-    /// @param kept of each node, 0 to 1: rows of nodes, as are
-    /// @param weights of the nodes in the mean; their sum is 1
-    void extend(Cell &cell, const NodeRow *kept, const NodeRow *weights);
 
     /// Integrals of phi_i over the part of a cell, m^dim: rows of nodes.
     const NodeRow *volumes(const Cell &cell) const

@@ -57,18 +57,16 @@ namespace scree
     }
 
     /// Finds divergence and force of a step, once the nodes' sums over ranks are known. Collective.
-    /// @param volume see PressurePair, as
-    /// @param inertia
+    /// @param volume sum V_p phi_i/n_p of the water at an owned node, m^3
     /// @param holds see FilledPart
     void find_pair(const Mixture<dim> &mixture,
                    const std::function<double(unsigned int node)> &volume,
-                   const std::function<double(unsigned int node)> &inertia,
                    const typename FilledPart<dim>::HoldsNode &holds,
                    const double time_step)
     {
       part.find(mixture, holds, time_step);
       schur.begin_step(mixture);
-      pair.find_moments(volume, inertia);
+      pair.find_moments(volume);
     }
 
     /// Impulses of the pressure in a step, N s, at the owned nodes: of u, then of q beside it. Collective.

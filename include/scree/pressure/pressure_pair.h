@@ -24,25 +24,19 @@ namespace scree
   /// on scattered points a gradient of pressure, nearly: Delta_i = sum V_p phi_i/n_p - int phi_i is what the water's
   /// points have at a node beside the part; each cell takes its share of it but for the mean, which is passed on to the
   /// nodes. sum_i delta_ci = 0, so that a uniform flow has no divergence, and forces add up to 0.
-  ///
-  /// A light node (closures::least_inertia) would follow any pressure, and what points say of its velocity is next to
-  /// nothing of theirs: in its cells u_i is D_i u_i + (1 - D_i) ubar, with ubar the mean of the cell's nodes by mass
-  /// and D_i < 1 in proportion to the mass; the same for q.
   template <int dim>
   class PressurePair
   {
   public:
     /// All are kept by reference.
-    PressurePair(const BackgroundGrid<dim> &grid, const NodeNumbering<dim> &vertices, FilledPart<dim> &part);
+    PressurePair(const BackgroundGrid<dim> &grid, const NodeNumbering<dim> &vertices, const FilledPart<dim> &part);
 
     /// Fits the pair to the grid's current partition.
     void reinit();
 
-    /// Finds the moments of a step whose parts are known, and extends their flow to light nodes. Collective.
+    /// Finds the moments of a step whose parts are known. Collective.
     /// @param volume sum V_p phi_i/n_p of the water at an owned node, m^3
-    /// @param inertia mass of soil and water at an owned node over the density of water, m^3
-    void find_moments(const std::function<double(unsigned int node)> &volume,
-                      const std::function<double(unsigned int node)> &inertia);
+    void find_moments(const std::function<double(unsigned int node)> &volume);
 
     /// int phi_i over the parts, of an owned node, m^3, after find_moments().
     double filled_volume(const unsigned int node) const
@@ -64,8 +58,6 @@ namespace scree
     void add_suction(const VertexVector &pressure, FlowField<dim> &forces) const;
 
   private:
-    void extend_to_light_nodes();
-
     template <int n>
     void add_divergence_of_cells(const FlowField<dim> &flow, VertexVector &sums) const;
     template <int n>
@@ -74,9 +66,8 @@ namespace scree
     /// Of a node.
     enum Defect : unsigned int
     {
-      volume,  // int phi_i, m^3
-      surplus, // Delta_i, m^3
-      inertia  // of soil and water over the density of water, m^3
+      volume, // int phi_i, m^3
+      surplus // Delta_i, m^3
     };
 
     static constexpr unsigned int n_passes = 8;   ///< of what cells do not take to the nodes
@@ -84,10 +75,9 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &vertices;
-    FilledPart<dim> &part;
-    NodeValues<dim, 3> defects;   // Defect
-    NodeValues<dim, 2> passed_on; // of it, only what is next
-    std::vector<NodeRow> moments; // delta_ci: rows of the parts' cells
+    const FilledPart<dim> &part;
+    NodeValues<dim, 2> defects, passed_on; // Defect; of the second, only what is next
+    std::vector<NodeRow> moments;          // delta_ci: rows of the parts' cells
   };
 } // namespace scree
 
