@@ -266,10 +266,56 @@ namespace scree
 
     /// Reads points; `n` of them that lie in a row, or any points if n = 0.
     template <typename Number, typename Indices>
-    static Lanes<Number> read(const Indices &indices,
-                              const unsigned int n,
-                              const MaterialPoints<dim> &points,
-                              const MaterialMotion<dim> &motion);
+    DEAL_II_ALWAYS_INLINE static inline Lanes<Number> read(const Indices &indices,
+                                                           const unsigned int n,
+                                                           const MaterialPoints<dim> &points,
+                                                           const MaterialMotion<dim> &motion)
+    {
+      constexpr unsigned int n_lanes = simd::n_lanes<Number>;
+      Lanes<Number> lanes;
+      for (unsigned int h = 0; h < n_lanes / batch_size; ++h)
+        {
+          RecordPointers<const double> b, internal;
+          for (unsigned int l = 0; l < batch_size; ++l)
+            {
+              const std::size_t offset = points.offset(indices[h * batch_size + l]);
+              b[l]                     = apart(points.left_cauchy_green + offset);
+              internal[l]              = apart(points.internal_variables + offset);
+            }
+          if constexpr (n_lanes == batch_size)
+            {
+              simd::load_records<n_components>(b, lanes.left_cauchy_green);
+              simd::load_records<n_internal>(internal, lanes.internal_variables);
+            }
+          else
+            {
+              Batch components[n_components], variables[n_internal + 1];
+              simd::load_records<n_components>(b, components);
+              simd::load_records<n_internal>(internal, variables);
+              for (unsigned int c = 0; c < n_components; ++c)
+                simd::half(lanes.left_cauchy_green[c], h) = components[c];
+              for (unsigned int i = 0; i < n_internal; ++i)
+                simd::half(lanes.internal_variables[i], h) = variables[i];
+            }
+        }
+
+      const auto list = [&](const double *numbers) {
+        Number result;
+        for (unsigned int h = 0; h < n_lanes / batch_size; ++h)
+          if (Batch &batch = simd::half(result, h); n == n_lanes)
+            batch = simd::load(numbers + indices[h * batch_size]);
+          else
+            for (unsigned int l = 0; l < batch_size; ++l)
+              batch[l] = numbers[indices[h * batch_size + l]];
+        return result;
+      };
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        lanes.increment[c] = list(motion.deformation_increment + c * motion.pitch);
+      lanes.volume_ratio     = list(motion.volume_ratio);
+      lanes.reference_volume = list(motion.reference_volume);
+      lanes.stretch          = dim == 2 ? list(motion.out_of_plane_stretch) : simd::broadcast<Number>(1.);
+      return lanes;
+    }
 
     /// Writes `n_values` Numbers into the records of the lanes whose bits are set.
     template <unsigned int n_values, typename Number, typename Indices>
@@ -351,61 +397,6 @@ namespace scree
       }
     own.n_updates = points.n_points;
     report.add(own);
-  }
-
-
-  template <int dim, typename Law>
-  template <typename Number, typename Indices>
-  DEAL_II_ALWAYS_INLINE inline typename HenckyMaterial<dim, Law>::template Lanes<Number>
-  HenckyMaterial<dim, Law>::read(const Indices &indices,
-                                 const unsigned int n,
-                                 const MaterialPoints<dim> &points,
-                                 const MaterialMotion<dim> &motion)
-  {
-    constexpr unsigned int n_lanes = simd::n_lanes<Number>;
-    Lanes<Number> lanes;
-    for (unsigned int h = 0; h < n_lanes / batch_size; ++h)
-      {
-        RecordPointers<const double> b, internal;
-        for (unsigned int l = 0; l < batch_size; ++l)
-          {
-            const std::size_t offset = points.offset(indices[h * batch_size + l]);
-            b[l]                     = apart(points.left_cauchy_green + offset);
-            internal[l]              = apart(points.internal_variables + offset);
-          }
-        if constexpr (n_lanes == batch_size)
-          {
-            simd::load_records<n_components>(b, lanes.left_cauchy_green);
-            simd::load_records<n_internal>(internal, lanes.internal_variables);
-          }
-        else
-          {
-            Batch components[n_components], variables[n_internal + 1];
-            simd::load_records<n_components>(b, components);
-            simd::load_records<n_internal>(internal, variables);
-            for (unsigned int c = 0; c < n_components; ++c)
-              simd::half(lanes.left_cauchy_green[c], h) = components[c];
-            for (unsigned int i = 0; i < n_internal; ++i)
-              simd::half(lanes.internal_variables[i], h) = variables[i];
-          }
-      }
-
-    const auto list = [&](const double *numbers) {
-      Number result;
-      for (unsigned int h = 0; h < n_lanes / batch_size; ++h)
-        if (Batch &batch = simd::half(result, h); n == n_lanes)
-          batch = simd::load(numbers + indices[h * batch_size]);
-        else
-          for (unsigned int l = 0; l < batch_size; ++l)
-            batch[l] = numbers[indices[h * batch_size + l]];
-      return result;
-    };
-    for (unsigned int c = 0; c < dim * dim; ++c)
-      lanes.increment[c] = list(motion.deformation_increment + c * motion.pitch);
-    lanes.volume_ratio     = list(motion.volume_ratio);
-    lanes.reference_volume = list(motion.reference_volume);
-    lanes.stretch          = dim == 2 ? list(motion.out_of_plane_stretch) : simd::broadcast<Number>(1.);
-    return lanes;
   }
 
 
