@@ -114,7 +114,7 @@ namespace scree
                              grid,
                              parameters.grid.cell_size / parameters.points_per_cell(inflow),
                              body == nullptr ? 1. : body->initial_porosity(),
-                             ground_of_water());
+                             parameters.has_water ? ground_of_water() : ground.get());
       }
     hold_at_inflows();
     if (parameters.rain.is_set())

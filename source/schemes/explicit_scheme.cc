@@ -118,7 +118,6 @@ namespace scree
             group.contact.find_rows(bodies, number++, group.soil.field, forces.mass_scaling(), time_step);
         group.tractions.solve(rows, group.soil.field, time_step, budget);
         group.contact.count_rows(group.tractions, time_step, budget);
-        group.soil.field.update_ghosts();
       }
   }
 

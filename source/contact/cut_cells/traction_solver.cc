@@ -97,50 +97,57 @@ namespace scree
       if (node.node >= grid.n_owned_nodes())
         ghosts.push_back(node.node);
     messages.begin(ghosts);
-    messages.to_owners(
-        1,
-        [](const unsigned int, double *number) { *number = 0.; },
-        [&](const unsigned int node, const double *) { add_node(node, field); });
-    motions.resize(nodes.size());
-    forces.resize(nodes.size());
   }
 
 
   template <int dim>
-  void TractionSolver<dim>::add_contributions(std::vector<NodeRow> &values)
+  void TractionSolver<dim>::add_at_owners(const NodalField<dim> *field)
   {
     messages.to_owners(
         dim,
         [&](const unsigned int node, double *numbers) {
           for (unsigned int c = 0; c < dim; ++c)
-            numbers[c] = values[number_of_node[node]][c];
+            numbers[c] = forces[number_of_node[node]][c];
         },
         [&](const unsigned int node, const double *numbers) {
+          if (field != nullptr && number_of_node[node] == none)
+            {
+              add_node(node, *field);
+              forces.push_back(NodeRow{});
+            }
           for (unsigned int c = 0; c < dim; ++c)
-            values[number_of_node[node]][c] += numbers[c];
-        });
-    messages.from_owners(
-        dim,
-        [&](const unsigned int node, double *numbers) {
-          for (unsigned int c = 0; c < dim; ++c)
-            numbers[c] = values[number_of_node[node]][c];
-        },
-        [&](const unsigned int node, const double *numbers) {
-          for (unsigned int c = 0; c < dim; ++c)
-            values[number_of_node[node]][c] = numbers[c];
+            forces[number_of_node[node]][c] += numbers[c];
         });
   }
 
 
   template <int dim>
-  void TractionSolver<dim>::find_steps(const GroundRows<dim> &rows, const double time_step)
+  void TractionSolver<dim>::take_from_owners()
+  {
+    messages.from_owners(
+        dim,
+        [&](const unsigned int node, double *numbers) {
+          for (unsigned int c = 0; c < dim; ++c)
+            numbers[c] = forces[number_of_node[node]][c];
+        },
+        [&](const unsigned int node, const double *numbers) {
+          for (unsigned int c = 0; c < dim; ++c)
+            forces[number_of_node[node]][c] = numbers[c];
+        });
+  }
+
+
+  template <int dim>
+  void
+  TractionSolver<dim>::find_steps(const GroundRows<dim> &rows, const NodalField<dim> &field, const double time_step)
   {
     const unsigned int n = grid.n_nodes_per_cell();
     forces.assign(nodes.size(), NodeRow{});
     for (unsigned int k = 0; k < rows.all.size(); ++k)
       for (unsigned int i = 0; i < n; ++i)
         forces[number_of_corner[k * n + i]] += NodeRow{} + rows.weight(k, i);
-    add_contributions(forces);
+    add_at_owners(&field);
+    take_from_owners();
     steps.resize(rows.all.size());
     for (unsigned int k = 0; k < rows.all.size(); ++k)
       {
@@ -161,7 +168,8 @@ namespace scree
   template <int dim>
   void TractionSolver<dim>::find_motions(const GroundRows<dim> &rows,
                                          const typename GroundRows<dim>::Vectors &tractions,
-                                         const double time_step)
+                                         const double time_step,
+                                         const bool is_last)
   {
     const unsigned int n = grid.n_nodes_per_cell();
     forces.assign(nodes.size(), NodeRow{});
@@ -171,7 +179,10 @@ namespace scree
         for (unsigned int i = 0; i < n; ++i)
           forces[number_of_corner[k * n + i]] += rows.weight(k, i) * traction;
       }
-    add_contributions(forces);
+    add_at_owners();
+    if (!is_last)
+      take_from_owners();
+    motions.resize(nodes.size());
     for (unsigned int j = 0; j < nodes.size(); ++j)
       motions[j] = -time_step * mobilities[j] * forces[j];
   }
@@ -180,32 +191,38 @@ namespace scree
   template <int dim>
   void TractionSolver<dim>::write(NodalField<dim> &field, const double time_step, Budget<dim> &balance)
   {
-    Budget<dim> of_ghosts;
     for (unsigned int j = 0; j < nodes.size(); ++j)
       {
         const unsigned int node = nodes[j].node;
         double *values          = field[node];
         const double mass       = values[NodalField<dim>::mass];
-        if (mass <= 0.)
+        if (mass <= 0. || node >= grid.n_owned_nodes())
           continue;
         Tensor<1, dim> velocity = nodes[j].before + to_vector<dim>(motions[j]);
         if (const NodeConstraints<dim> *walls = constraints.at(node))
           {
-            Budget<dim> &of_node = node < grid.n_owned_nodes() ? balance : of_ghosts;
             Tensor<1, dim> held;
             for (unsigned int a = 0; a < dim; ++a)
               if (mobilities[j][a] == 0.)
                 held[a] = time_step * forces[j][a];
-            of_node.wall_impulse += held;
-            of_node.soil_walls.add(walls->soil_faces, held);
-            stop_at_walls(*walls, 1. / mass, velocity, of_node);
+            balance.wall_impulse += held;
+            balance.soil_walls.add(walls->soil_faces, held);
+            stop_at_walls(*walls, 1. / mass, velocity, balance);
           }
         for (unsigned int c = 0; c < dim; ++c)
           {
             values[NodalField<dim>::velocity_change + c] += velocity[c] - values[NodalField<dim>::velocity + c];
             values[NodalField<dim>::velocity + c] = velocity[c];
           }
-        motions[j] = to_row<dim>(working_velocity(
+      }
+    field.update_ghosts();
+    for (unsigned int j = 0; j < nodes.size(); ++j)
+      {
+        const double *values = field[nodes[j].node];
+        if (values[NodalField<dim>::mass] <= 0.)
+          continue;
+        const Tensor<1, dim> velocity = vector_of<dim>(values + NodalField<dim>::velocity);
+        motions[j]                    = to_row<dim>(working_velocity(
             velocity, vector_of<dim>(values + NodalField<dim>::velocity_change), velocity - nodes[j].before));
       }
   }
@@ -219,7 +236,7 @@ namespace scree
   {
     const unsigned int n_rows = rows.all.size();
     begin(rows, field);
-    find_steps(rows, time_step);
+    find_steps(rows, field, time_step);
     last.resize(n_rows);
     extrapolated.resize(n_rows);
     for (unsigned int k = 0; k < n_rows; ++k)
@@ -230,7 +247,7 @@ namespace scree
         const double next   = 0.5 * (1. + std::sqrt(1. + 4. * theta * theta));
         const double onward = (theta - 1.) / next;
         theta               = next;
-        find_motions(rows, extrapolated, time_step);
+        find_motions(rows, extrapolated, time_step, false);
         for (unsigned int k = 0; k < n_rows; ++k)
           {
             const GroundRow<dim> &row     = rows.all[k];
@@ -240,7 +257,7 @@ namespace scree
             last[k]                       = traction;
           }
       }
-    find_motions(rows, last, time_step);
+    find_motions(rows, last, time_step, true);
     for (unsigned int k = 0; k < n_rows; ++k)
       rows.all[k].traction = last[k];
     write(field, time_step, balance);

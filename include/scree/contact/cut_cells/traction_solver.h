@@ -51,20 +51,26 @@ namespace scree
       dealii::Tensor<1, dim> before; // velocity without the tractions, m/s
     };
 
-    /// Lists the nodes of the rows, those of other ranks' rows included. Collective.
+    /// Lists the nodes of the rows. Collective.
     void begin(const GroundRows<dim> &rows, const NodalField<dim> &field);
     void add_node(const unsigned int node, const NodalField<dim> &field);
 
-    /// Sums `values` of the nodes over ranks; all ranks know the sums.
-    void add_contributions(std::vector<NodeRow> &values);
+    /// Sums `forces` over ranks: owned nodes hold the whole afterwards. Collective.
+    /// @param field given: nodes of other ranks' rows alone are listed, too
+    void add_at_owners(const NodalField<dim> *field = nullptr);
+
+    /// Hands them to the ranks with rows at these nodes. Collective.
+    void take_from_owners();
 
     /// Sets the steps of the rows: 1 over the sum of a row of dt N A^-1 N^T. Collective.
-    void find_steps(const GroundRows<dim> &rows, const double time_step);
+    void find_steps(const GroundRows<dim> &rows, const NodalField<dim> &field, const double time_step);
 
     /// Sets the changes of velocity by tractions on the rows. Collective.
+    /// @param is_last at owned nodes alone
     void find_motions(const GroundRows<dim> &rows,
                       const typename GroundRows<dim>::Vectors &tractions,
-                      const double time_step);
+                      const double time_step,
+                      const bool is_last);
 
     NodeRow flow_of_motions(const GroundRows<dim> &rows, const unsigned int row) const
     {
@@ -75,7 +81,8 @@ namespace scree
       return flow;
     }
 
-    /// Writes the velocities to the field, where walls are not gone into, and books what they get.
+    /// Writes the velocities to the field, ghosts included, where walls are not gone into, books what they get, and
+    /// sets the motions to the working velocities. Collective.
     void write(NodalField<dim> &field, const double time_step, Budget<dim> &balance);
 
     const BackgroundGrid<dim> &grid;
