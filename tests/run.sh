@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # sh tests/run.sh                      builds, runs the quick tests (label quick)
-# sh tests/run.sh --full               the tests with the label full, and the short cases of tests/debug in a Debug build; as root also the quick
-#                                      start in a Debian 13, if its packages can be downloaded and there is time
+# sh tests/run.sh --full               the tests with the label full, and the short cases of tests/debug in a Debug build; as root and with
+#                                      SCREE_DEBIAN13=1 also the quick start in a Debian 13, if there is time
 # sh tests/run.sh -R nor_sand          those of all tests that these arguments of ctest name, whatever their label
 
 begin=$(date +%s)
@@ -86,7 +86,7 @@ else
   configure_scree build-debug Debug ${debug_options:+"$debug_options"} && run_tests build-debug -L '^debug$' "$@" || failed=1
 fi
 system=
-if [ "$scope" = full ] && [ $# -eq 0 ]; then
+if [ "$scope" = full ] && [ $# -eq 0 ] && [ -n "${SCREE_DEBIAN13:-}" ]; then
   system=$(debian13) || failed=1
   # Only its logs are kept.
   rm -rf "$root/build-debian13/root" "$root/build-debian13/system" "$root/build-debian13/is_made"
