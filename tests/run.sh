@@ -20,10 +20,10 @@ test_packages="clang-format shellcheck pyflakes3 doxygen python3-sphinx python3-
 # shellcheck source=doc/setup.sh
 . "$(dirname -- "$0")/../doc/setup.sh"
 
-# Without these, tests say that they did not run: a browser for the site, and the maker of a Debian 13.
+# Without these, tests say that they did not run: a browser for the site, and the maker of a Debian 13, if that is asked for.
 if [ "$scope" = full ] && [ "$(id -u)" -eq 0 ]; then
-  for program in chromium debootstrap; do
-    command -v $program >/dev/null || DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $program >/dev/null 2>&1
+  for program in chromium ${SCREE_DEBIAN13:+debootstrap}; do
+    command -v "$program" >/dev/null || DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$program" >/dev/null 2>&1
   done
 fi
 

@@ -128,19 +128,16 @@ namespace scree
   void Scene<dim>::join_ground()
   {
     std::vector<const LevelSet<dim> *> all;
-    std::vector<GroundPart<dim>> parts; // Each by itself: where two meet, each has its own normal and friction.
     if (ground)
-      {
-        all.push_back(ground.get());
-        parts.push_back({ bed.get() });
-      }
+      all.push_back(ground.get());
     for (const Obstacle<dim> &obstacle : obstacles)
-      {
-        all.push_back(&obstacle.shape());
-        parts.push_back({ &obstacle.surface, obstacle.is_moving ? &obstacle.velocity() : nullptr });
-      }
+      all.push_back(&obstacle.shape());
     if (all.empty())
       return;
+    std::vector<GroundPart<dim>> parts; // Each by itself: where two meet, each has its own normal and friction.
+    for (const RigidSurface<dim> &surface : rigid_surfaces())
+      parts.push_back({ surface.samples,
+                        surface.obstacle && surface.obstacle->is_moving ? &surface.obstacle->velocity() : nullptr });
     if (!obstacles.empty())
       union_level_set = std::make_unique<JoinedSurface<dim>>(all);
     rigid_ground = std::make_unique<RigidBoundary<dim>>(parts);

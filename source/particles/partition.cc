@@ -54,9 +54,9 @@ namespace scree
   {
     const auto own        = [this](const Work work) { return work_of_rank[unsigned(work)]; };
     const double to_nodes = own(Work::to_nodes), solving = own(Work::solving), to_points = own(Work::to_points);
-    const auto of_ranks = Utilities::MPI::min_max_avg(
-        std::vector<double>{ to_nodes, to_nodes + solving, to_points, number_of_points() }, communicator);
-    const auto &of_nodes = of_ranks[0], &with_solving = of_ranks[1], &of_points = of_ranks[2], &number = of_ranks[3];
+    const auto of_ranks =
+        Utilities::MPI::min_max_avg(std::vector<double>{ to_nodes, to_nodes + solving, to_points }, communicator);
+    const auto &of_nodes = of_ranks[0], &with_solving = of_ranks[1], &of_points = of_ranks[2];
     // A rank with little to do waits in solving, in the processor's time: what is uneven is the rest.
     const std::array<WorkOfRanks, 2> works{ { { with_solving.avg + of_nodes.max - of_nodes.avg, with_solving.avg },
                                               { of_points.max, of_points.avg } } };

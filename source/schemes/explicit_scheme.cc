@@ -27,8 +27,7 @@ namespace scree
 
   template <int dim>
   ExplicitScheme<dim>::ExplicitScheme(const Model<dim> &model, TimerOutput &timer)
-      : grid(model.grid)
-      , bodies(model.bodies)
+      : bodies(model.bodies)
       , forces(model.forces)
       , meets_surfaces(!model.surfaces.empty())
       , timer(timer)
@@ -125,12 +124,11 @@ namespace scree
   template <int dim>
   void ExplicitScheme<dim>::project_to_ground(const double time_step, const double largest_speed)
   {
-    const double farthest = 0.25 * grid.cell_size() + 2. * time_step * largest_speed;
     for (auto &body : bodies)
       if (!body.is_rigid)
         {
           Group &group = *std::next(groups.begin(), body.group);
-          group.contact.project_to_boundary(body.points, farthest, group.closed_faces);
+          group.contact.project_to_boundary(body.points, time_step, largest_speed, group.closed_faces);
         }
   }
 

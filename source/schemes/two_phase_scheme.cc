@@ -181,18 +181,16 @@ namespace scree
   template <int dim>
   void TwoPhaseScheme<dim>::project_to_boundary(const double time_step, const double largest_speed)
   {
-    // Nodes may be faster than points, and shifting moves by a tenth of a cell along each axis.
-    const double farthest = 0.25 * grid.cell_size() + 2. * time_step * largest_speed;
     for (auto &one : water)
       if (PointSet<dim> *own = one.own_points())
         clamp_to_box(grid, faces_closed_to_water, *own);
     std::vector<PointSet<dim> *> of_soil;
     soil.append_point_sets(of_soil);
     for (PointSet<dim> *points : of_soil)
-      contact.project_to_boundary(*points, farthest, faces_closed_to_soil);
+      contact.project_to_boundary(*points, time_step, largest_speed, faces_closed_to_soil);
     for (auto &one : water)
       if (PointSet<dim> *own = one.own_points())
-        contact.project_to_boundary(*own, farthest, faces_closed_to_water);
+        contact.project_to_boundary(*own, time_step, largest_speed, faces_closed_to_water);
   }
 
 

@@ -9,7 +9,7 @@
 
 namespace scree
 {
-  /// Rigid ground inside the cells, in scenes with water, constrains the velocity at its facets only once a particle
+  /// Rigid ground inside the cells constrains the velocity at its facets only once a particle
   /// has reached them: the rule of WallGaps, for which a facet is what a node is on a wall of the box.
   ///
   /// The gap of a facet is that of the nearest particle of its cell, less .6 of the particle spacing. Until it closes,

@@ -23,7 +23,7 @@ namespace scree
 
     /// Mass of the nodes at a segment of the ground over that inside soil, from which on the ground acts on dry soil
     /// in a cell without points. Without these segments, those of thin cells come and go as soil slides past: the force
-    /// on a frictionless block varies by 7 % (now 1 %). From .1 on, a block on an arc loses .5 % more energy.
+    /// on a frictionless block varies by 7 % (now .5 %). From .1 on, a block on an arc loses more energy.
     constexpr double least_cover = 0.25;
 
     /// Mass of a node over that inside soil, from which on it counts wholly at segments of the ground on dry soil. With

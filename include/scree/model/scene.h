@@ -57,7 +57,7 @@ namespace scree
         obstacle.end_step(time_step);
     }
 
-    /// Whether obstacles may move in water, so that cut_cells have to follow them.
+    /// Whether obstacles may move, so that cut_cells have to follow them.
     bool ground_moves() const
     {
       return rigid_ground && rigid_ground->moves();
@@ -148,10 +148,10 @@ namespace scree
     std::optional<Rain<dim>> rain;                  ///< on the soil; nothing if it does not rain
     std::unique_ptr<LevelSet<dim>> ground;          ///< null without a bed
     std::unique_ptr<DiscreteLevelSet<dim>> bed;     ///< the same as the mesh sees it
-    std::unique_ptr<LevelSet<dim>> union_level_set; ///< bed and obstacles as one; null without water or obstacles
-    std::unique_ptr<RigidBoundary<dim>> rigid_ground; ///< what water meets; null if there is nothing
+    std::unique_ptr<LevelSet<dim>> union_level_set; ///< bed and obstacles as one; null without obstacles
+    std::unique_ptr<RigidBoundary<dim>> rigid_ground; ///< bed and obstacles; null without both
     std::shared_ptr<const SeepageField<dim>> seepage; ///< steady, before the first step; null without
-    std::unique_ptr<CutCells<dim>> cut_cells;         ///< what ground leaves of the cells; null without water or ground
+    std::unique_ptr<CutCells<dim>> cut_cells;         ///< where these cut the cells; null without both
 
   private:
     /// Walls do not act where obstacles that move cover them.

@@ -143,7 +143,6 @@ namespace scree
         group.soil.field.update_ghosts();
     }
 
-    const BackgroundGrid<dim> &grid;
     std::list<SoilBody<dim>> &bodies;
     const BodyForces<dim> &forces;
     const bool meets_surfaces; // rigid ones

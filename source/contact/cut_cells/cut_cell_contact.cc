@@ -445,12 +445,15 @@ namespace scree
 
   template <int dim>
   void CutCellContact<dim>::project_to_boundary(PointSet<dim> &points,
-                                                const double farthest,
+                                                const double time_step,
+                                                const double largest_speed,
                                                 const std::uint8_t closed_faces) const
   {
     if (ground == nullptr)
       return;
     const TimedPart part(timer, TimerSection::bed);
+    // Nodes may be faster than points, and shifting moves by a tenth of a cell along each axis.
+    const double farthest = 0.25 * grid.cell_size() + 2. * time_step * largest_speed;
     move_out_of_ground(grid, *ground, farthest, closed_faces, points);
   }
 

@@ -19,14 +19,13 @@ namespace scree
     template <int dim>
     Tensor<1, dim> admissible(const GroundRow<dim> &row, const Tensor<1, dim> &traction)
     {
+      if (!row.is_unilateral)
+        return traction; // It is fixed.
       const double pressing = traction * row.normal;
-      if (row.is_unilateral && pressing <= 0.)
+      if (pressing <= 0.)
         return Tensor<1, dim>();
-      const Tensor<1, dim> along = row.along(traction);
-      const double available = row.friction == 0. ? 0. : row.friction * pressing, size = along.norm();
-      if (std::isinf(row.friction) || size <= available)
-        return traction;
-      return pressing * row.normal + (available > 0. ? available / size : 0.) * along;
+      return pressing * row.normal +
+             coulomb_friction<dim>(row.along(traction), available_friction(row.friction, pressing)).impulse;
     }
 
     /// The directions along which walls hold a node with this velocity, m/s.
@@ -105,10 +104,7 @@ namespace scree
   {
     messages.to_owners(
         dim,
-        [&](const unsigned int node, double *numbers) {
-          for (unsigned int c = 0; c < dim; ++c)
-            numbers[c] = forces[number_of_node[node]][c];
-        },
+        [this](const unsigned int node, double *numbers) { write_force(node, numbers); },
         [&](const unsigned int node, const double *numbers) {
           if (field != nullptr && number_of_node[node] == none)
             {
@@ -126,11 +122,8 @@ namespace scree
   {
     messages.from_owners(
         dim,
-        [&](const unsigned int node, double *numbers) {
-          for (unsigned int c = 0; c < dim; ++c)
-            numbers[c] = forces[number_of_node[node]][c];
-        },
-        [&](const unsigned int node, const double *numbers) {
+        [this](const unsigned int node, double *numbers) { write_force(node, numbers); },
+        [this](const unsigned int node, const double *numbers) {
           for (unsigned int c = 0; c < dim; ++c)
             forces[number_of_node[node]][c] = numbers[c];
         });

@@ -13,14 +13,13 @@
 
 namespace scree
 {
-  /// Rigid ground, the bed and obstacles, in scenes with water: takes from soil and water at the nodes what would carry
-  /// them through it.
+  /// Rigid ground, the bed and obstacles: takes from soil and water at the nodes what would carry them through it.
   ///
-  /// The ground in a cell is one segment, and one of each part that moves; a field's velocity there is its mean over
-  /// the segment, beside the segment's own. Soil, and water in cells without an unknown pressure, get a row each
-  /// (GroundRows), whose tractions PressureSolver finds together with the pressure; elsewhere the pressure stops the
-  /// water. Soil that is not fixed may lift off, and rubs by Coulomb's law; water may leave where it has no pressure.
-  /// It slips along the ground, but where that holds free water.
+  /// The ground in a cell is a segment for each of its parts; a field's velocity there is its mean over the segment,
+  /// beside the segment's own. Soil gets a row each (GroundRows), and so does water in cells without an unknown
+  /// pressure; elsewhere the pressure stops the water. PressureSolver finds the tractions together with the pressure,
+  /// TractionSolver those on soil without water. Soil that is not fixed may lift off, and rubs by Coulomb's law; water
+  /// may leave where it has no pressure. It slips along the ground, but where that holds free water.
   template <int dim>
   class CutCellContact
   {
@@ -94,9 +93,13 @@ namespace scree
                         const double time_step,
                         Budget<dim> &balance) const;
 
-    /// Takes points that have come below the ground back to it. None has moved farther than `farthest`, m.
+    /// Takes points that have come below the ground in a step of `time_step` s back to it.
+    /// @param largest_speed of the points of this rank, m/s
     /// @param closed_faces of the box, to the points: none is put through them
-    void project_to_boundary(PointSet<dim> &points, const double farthest, const std::uint8_t closed_faces) const;
+    void project_to_boundary(PointSet<dim> &points,
+                             const double time_step,
+                             const double largest_speed,
+                             const std::uint8_t closed_faces) const;
 
     /// Tractions of the last step at the facets of all ranks, with the places of their cells. Collective.
     std::vector<FacetTractions<dim>> tractions() const;

@@ -62,6 +62,13 @@ namespace scree
     /// Hands them to the ranks with rows at these nodes. Collective.
     void take_from_owners();
 
+    /// The force of a node, N, for a message.
+    void write_force(const unsigned int node, double *numbers) const
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        numbers[c] = forces[number_of_node[node]][c];
+    }
+
     /// Sets the steps of the rows: 1 over the sum of a row of dt N A^-1 N^T. Collective.
     void find_steps(const GroundRows<dim> &rows, const NodalField<dim> &field, const double time_step);
 
