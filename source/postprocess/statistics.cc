@@ -188,20 +188,15 @@ namespace scree
   template class SoilMotion<3>;
 
 
-  namespace
+  template <int dim>
+  std::map<std::string, std::function<void(const Snapshot<dim> &, StatisticsRow &)>> &registered_columns()
   {
-    template <int dim>
-    using ColumnGroups =
-        std::map<std::pair<ColumnTopic, std::string>, std::function<void(const Snapshot<dim> &, StatisticsRow &)>>;
+    static std::map<std::string, std::function<void(const Snapshot<dim> &, StatisticsRow &)>> all;
+    return all; // made at the first call, whichever source file registers first
+  }
 
-    /// Made at the first call, whichever source file registers first.
-    template <int dim>
-    ColumnGroups<dim> &column_groups()
-    {
-      static ColumnGroups<dim> all;
-      return all;
-    }
-  } // namespace
+  template decltype(registered_columns<2>) registered_columns<2>;
+  template decltype(registered_columns<3>) registered_columns<3>;
 
 
   void add_value(StatisticsRow &row, const std::string &name, const std::string &unit, const double value)
@@ -210,38 +205,162 @@ namespace scree
   }
 
 
-  void add_value(StatisticsRow &row, const std::string &, const std::string &, const StatisticsRow &values)
+  namespace
   {
-    row.insert(row.end(), values.begin(), values.end());
-  }
+    /// What each obstacle takes of soil and water: the opposite of what it gives them.
+    template <int dim>
+    void add_obstacles(const Snapshot<dim> &now, StatisticsRow &row)
+    {
+      auto obstacle = now.further.obstacles->begin();
+      for (unsigned int o = 0; o < now.totals.balance.obstacles.size(); ++o, ++obstacle)
+        {
+          const ObstacleBalance<dim> &after   = now.totals.balance.obstacles[o],
+                                     &before  = now.before.balance.obstacles[o];
+          const Tensor<1, dim> impulse        = -(after.impulse + after.pressure_impulse);
+          const Tensor<1, dim> impulse_before = -(before.impulse + before.pressure_impulse);
+          const std::string name              = ObstacleParameters::prefix + obstacle->name + ' ';
+          Tensor<1, dim> force;
+          for (unsigned int a = 0; a < dim; ++a)
+            force[a] = now.mean_rate(impulse[a], impulse_before[a]);
+          add_value(row, name + "force", "N", force);
+          for (unsigned int r = 0; r < ObstacleBalance<dim>::n_rotations; ++r)
+            add_value(row,
+                      name + "moment " + (dim == 2 ? 'z' : "xyz"[r]),
+                      "N m",
+                      now.mean_rate(-after.moment_impulse[r], -before.moment_impulse[r]));
+          add_value(row, name + "impulse", "N s", impulse);
+          add_value(row, name + "dissipation", "J", after.dissipation);
+          if (obstacle->is_moving)
+            {
+              add_value(row, name + "work", "J", after.work);
+              add_value(row, name + "displacement", "m", obstacle->displacement());
+            }
+        }
+    }
 
 
-  template <int dim>
-  void RegisterColumns::insert(const ColumnTopic topic,
-                               const std::string &name,
-                               const std::function<void(const Snapshot<dim> &, StatisticsRow &)> &add)
-  {
-    column_groups<dim>()[{ topic, name }] = add;
-  }
+    template <int dim>
+    void add_soil(const Snapshot<dim> &now, StatisticsRow &row)
+    {
+      const PointSums<dim> &sums  = now.sums;
+      const UpdateReport &updates = now.totals.material;
+      const MotionNumbers &motion = now.motion;
+      add_value(row, "Front 90 %", "m", now.fronts[0]);
+      add_value(row, "Front 99 %", "m", now.fronts[1]);
+      add_value(row, "Front 99.5 %", "m", now.fronts[2]);
+      add_value(row, "Height", "m", std::max(sums.height, now.grid.lower_corner()[dim - 1]));
+      add_value(row, "Stress oscillation", "-", stress_oscillation(now.bodies, now.grid));
+      add_value(row, "Mean effective stress", "Pa", sums.soil_points > 0 ? sums.pressure / sums.soil_points : 0.);
+      add_value(row, "Largest effective stress", "Pa", sums.largest_pressure);
+      add_value(row, "Separated points", "", Utilities::MPI::sum(now.last_step.n_separated, now.grid.communicator()));
+      add_value(row, "Substeps per update", "", updates.n_updates > 0 ? updates.n_substeps / updates.n_updates : 0.);
+      add_value(row, "Fallbacks", "", updates.n_fallbacks);
+      add_value(row, "Vertices", "", updates.n_vertices);
+      add_value(row, "Unresolved", "", updates.n_unresolved);
+      add_value(row, "Speed 99 %", "m/s", motion.speed);
+      add_value(row, "Moving part", "-", motion.moving_part);
+      add_value(row, "Moving thickness", "cells", motion.thickness);
+      add_value(row, "Run-out length", "m", motion.length);
+      add_value(row, "Fall height", "m", motion.fall);
+      add_value(row, "Run-out H/L", "-", motion.length > 0. ? motion.fall / motion.length : 0.);
+      add_value(row, "Travel angle", "degrees", motion.travel_angle);
+      add_value(row, "Deposit area", "m^2", motion.area);
+      add_value(row, "Deposit volume", "m^3", motion.volume);
+    }
 
 
-  template <int dim>
-  StatisticsRow row_of(const Snapshot<dim> &now)
-  {
-    StatisticsRow row;
-    for (const auto &[place, add] : column_groups<dim>())
-      add(now, row);
-    return row;
-  }
+    template <int dim>
+    void add_water(const Snapshot<dim> &now, StatisticsRow &row)
+    {
+      const WaterMeasures &water = now.of_water;
+      const Budget<dim> &balance = now.totals.balance, &before = now.before.balance;
+      add_value(row, "Water points", "", water.n_points);
+      add_value(row, "Water mass", "kg", water.mass);
+      add_value(row, "Water outside soil", "kg", water.mass_outside_soil);
+      add_value(row, "Water lost", "kg", now.totals.lost_water_mass);
+      add_value(row, "Smallest p", "Pa", water.smallest_pressure);
+      add_value(row, "Largest p", "Pa", water.largest_pressure);
+      add_value(row, "p oscillation", "-", pressure_oscillation(now.water, now.grid));
+      add_value(row, "Volume error", "-", water.volume_error);
+      add_value(row, "Water front 90 %", "m", now.water_fronts[0]);
+      add_value(row, "Water front 99 %", "m", now.water_fronts[1]);
+      add_value(row, "Water front 99.5 %", "m", now.water_fronts[2]);
+      add_value(row, "Water tip", "m", water.tip);
+      if (!now.bodies.empty())
+        add_value(row, "Largest porosity", "-", now.sums.largest_porosity);
+      add_value(row, "Drag dissipation", "J", balance.drag_dissipation);
+      add_value(row, "Cavitating corners", "", now.mean_of_steps(balance.n_cavitating, before.n_cavitating));
+      add_value(row, "CG iterations per step", "", now.mean_of_steps(balance.n_iterations, before.n_iterations));
+      add_value(row, "Preconditioners built", "", balance.n_preconditioners);
+      if (now.further.viscosity)
+        {
+          add_value(row, "Viscous dissipation", "J", balance.viscous_dissipation);
+          add_value(row,
+                    "Viscous iterations per step",
+                    "",
+                    now.mean_of_steps(balance.n_viscous_iterations, before.n_viscous_iterations));
+        }
+    }
 
-  template void RegisterColumns::insert<2>(const ColumnTopic,
-                                           const std::string &,
-                                           const std::function<void(const Snapshot<2> &, StatisticsRow &)> &);
-  template void RegisterColumns::insert<3>(const ColumnTopic,
-                                           const std::string &,
-                                           const std::function<void(const Snapshot<3> &, StatisticsRow &)> &);
-  template StatisticsRow row_of(const Snapshot<2> &);
-  template StatisticsRow row_of(const Snapshot<3> &);
+
+    /// All columns of a scene, in their order. Collective.
+    template <int dim>
+    StatisticsRow row_of(const Snapshot<dim> &now)
+    {
+      const RunBalance<dim> &totals      = now.totals;
+      const Budget<dim> &balance         = totals.balance;
+      const SceneFeatures<dim> &features = now.further;
+      StatisticsRow row;
+      add_value(row, "Time", "s", now.time);
+      add_value(row, "Step", "", now.step);
+      add_value(row, "Time step", "s", now.time_step);
+      add_value(row, "Points", "", now.sums.soil_points);
+      add_value(row, "Mass", "kg", now.sums.soil_mass);
+      add_value(row, "Momentum", "N s", now.sums.momentum);
+      add_value(row, "Momentum residual", "N s", now.momentum_residual());
+      add_value(row, "Kinetic energy", "J", now.sums.kinetic);
+      add_value(row, "Potential energy", "J", now.sums.potential);
+      add_value(row, "Elastic energy", "J", now.sums.elastic);
+      add_value(row, "Plastic dissipation", "J", totals.material.plastic_dissipation);
+      add_value(row, "Wall dissipation", "J", balance.wall_dissipation);
+      add_value(row, "Numerical dissipation", "J", now.numerical_dissipation());
+      if (!now.bodies.empty())
+        add_soil(now, row);
+      add_value(row, "Points lost", "", totals.n_lost);
+      add_value(row, "Mass lost", "kg", totals.lost_mass);
+      if (!now.water.empty())
+        add_water(now, row);
+      if (features.bed != nullptr)
+        {
+          add_value(row, "Bed dissipation", "J", balance.bed_dissipation);
+          add_value(row, "Bed impulse", "N s", -balance.bed_impulse);
+          add_value(row,
+                    "Least distance from bed",
+                    "m",
+                    least_distance(now.bodies, now.water, *features.bed, now.grid.communicator()));
+        }
+      if (features.obstacles != nullptr)
+        add_obstacles(now, row);
+      if (features.inflows)
+        {
+          add_value(row, "Points entered", "", totals.n_entered);
+          add_value(row, "Mass entered", "kg", totals.entered_mass);
+          if (!now.water.empty())
+            add_value(row, "Water entered", "kg", totals.entered_water_mass);
+          add_value(row, "Momentum entered", "N s", totals.entered_momentum);
+          add_value(row, "Energy entered", "J", totals.entered_energy);
+        }
+      if (features.contacts)
+        add_value(row, "Contact dissipation", "J", balance.contact_dissipation);
+      if (features.loads)
+        add_value(row, "Load work", "J", balance.load_work);
+      if (features.volume_correction)
+        add_value(row, "Volume correction work", "J", balance.correction_work);
+      for (const auto &[first_name, add] : registered_columns<dim>())
+        add(now, row);
+      return row;
+    }
+  } // namespace
 
 
   template <int dim>

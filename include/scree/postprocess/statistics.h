@@ -229,53 +229,23 @@ namespace scree
   /// Values by the whole names of their columns, such as `Mass (kg)`.
   using StatisticsRow = std::vector<std::pair<std::string, double>>;
 
-  /// Where columns stand in a row, from left to right.
-  enum class ColumnTopic
-  {
-    run,
-    soil,
-    lost,
-    water,
-    rigid,
-    inflows,
-    work,
-    further
-  };
-
-  /// Columns of any scene.
-  struct Always
-  {
-    /// True.
-    template <typename Snapshot>
-    bool operator()(const Snapshot &) const
-    {
-      return true;
-    }
-  };
-
-  /// A column of the file `statistics`. Its functions take a Snapshot<2> or a Snapshot<3>; `value` may be collective.
-  template <typename Value, typename Exists = Always>
+  /// A column that a source file adds to the statistics. Its functions take a Snapshot<2> or a Snapshot<3>; `value` may
+  /// be collective.
+  template <typename Value, typename Exists>
   struct Column
   {
-    std::string name;   ///< without unit
-    std::string unit;   ///< empty: none
-    Value value;        ///< a number; a vector has a column an axis; a StatisticsRow has names of its own
-    Exists exists = {}; ///< whether the scene has it: the same in all rows
+    std::string name; ///< without unit
+    std::string unit; ///< empty: none
+    Value value;      ///< a number; a vector has a column an axis
+    Exists exists;    ///< whether the scene has it: the same in all rows
   };
 
-  /// A column of any scene.
-  template <typename Value>
-  Column(const char *, const char *, Value) -> Column<Value>;
-
-  /// A column of some scenes.
+  /// Deduces the types of the functions.
   template <typename Value, typename Exists>
   Column(const char *, const char *, Value, Exists) -> Column<Value, Exists>;
 
   /// Adds a value under its column's whole name.
   void add_value(StatisticsRow &row, const std::string &name, const std::string &unit, const double value);
-
-  /// Adds values that have whole names.
-  void add_value(StatisticsRow &row, const std::string &, const std::string &, const StatisticsRow &values);
 
   /// Adds a vector: a column an axis.
   template <int dim>
@@ -286,31 +256,24 @@ namespace scree
       add_value(row, name + ' ' + "xyz"[a], unit, value[a]);
   }
 
-  /// All registered columns of a scene, in their order. Collective.
+  /// The functions that add registered columns to a row, by the name of their first column.
   template <int dim>
-  StatisticsRow row_of(const Snapshot<dim> &now);
+  std::map<std::string, std::function<void(const Snapshot<dim> &, StatisticsRow &)>> &registered_columns();
 
-  /// Adds columns to the statistics; their source file has one as a static constant.
+  /// Adds columns at the end of the rows, in the order of the first one's name; their source file has one as a static
+  /// constant.
   class RegisterColumns
   {
   public:
-    /// Columns at the end of the row, in the order of the first one's name.
-    template <typename... Value, typename... Exists>
-    explicit RegisterColumns(const Column<Value, Exists> &...columns)
-        : RegisterColumns(ColumnTopic::further, Always(), columns...)
-    {
-    }
-
-    /// Columns of scenes for which `exists` is true.
-    template <typename Exists, typename First, typename... Others>
-    RegisterColumns(const ColumnTopic topic, const Exists &exists, const First &first, const Others &...others)
+    /// @param first whose name gives the place among the registered columns
+    template <typename First, typename... Others>
+    explicit RegisterColumns(const First &first, const Others &...others)
     {
       const auto add = [=](const auto &now, StatisticsRow &row) {
-        if (exists(now))
-          (add_column(first, now, row), ..., add_column(others, now, row));
+        (add_column(first, now, row), ..., add_column(others, now, row));
       };
-      insert<2>(topic, first.name, add);
-      insert<3>(topic, first.name, add);
+      registered_columns<2>()[first.name] = add;
+      registered_columns<3>()[first.name] = add;
     }
 
   private:
@@ -320,11 +283,6 @@ namespace scree
       if (column.exists(now))
         add_value(row, column.name, column.unit, column.value(now));
     }
-
-    template <int dim>
-    void insert(const ColumnTopic topic,
-                const std::string &name,
-                const std::function<void(const Snapshot<dim> &, StatisticsRow &)> &add);
   };
 
   /// The rows of the files `statistics` and `statistics.csv`: global numbers at each due time.
