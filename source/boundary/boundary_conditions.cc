@@ -5,42 +5,125 @@ namespace scree
 {
   using namespace dealii;
 
-  namespace
+  FaceEntries::FaceEntries(const std::string &subsection,
+                           const std::string &phase,
+                           const std::string &accepted,
+                           const ReadWall read,
+                           const std::string &side,
+                           const std::string &bottom,
+                           const std::string &top)
+      : left(side)
+      , right(side)
+      , front(side)
+      , back(side)
+      , bottom(bottom)
+      , top(top)
+      , subsection(subsection)
+      , phase(phase)
+      , accepted(accepted)
+      , default_side(side)
+      , read(read)
   {
-    constexpr char accepted_walls[] = "fixed | free slip | friction ANGLE (degrees, 0 to below 90) | open";
-
-    /// Reads one wall, or throws with the words that are allowed.
-    Wall wall_from_text(const std::string &name, const std::string &text)
-    {
-      if (text == "fixed")
-        return { WallType::fixed, 0. };
-      if (text == "free slip")
-        return { WallType::free_slip, 0. };
-      if (text == "open")
-        return { WallType::open, 0. };
-      if (text.rfind("friction ", 0) == 0)
-        if (const double angle = number_of(Utilities::trim(text.substr(9))); angle >= 0. && angle < 90.)
-          return { WallType::friction, std::tan(angle * numbers::PI / 180.) };
-      throw EntryError(entry_name("Boundaries", name) + " = " + text + ": write one of: " + accepted_walls + '.');
-    }
-  } // namespace
-
-
-  void BoundaryParameters::add_parameters(ParameterHandler &prm)
-  {
-    prm.enter_subsection("Boundaries");
-    FaceEntries::add_parameters(prm, std::string(" of the box: ") + accepted_walls + ".");
-    prm.leave_subsection();
   }
 
 
-  std::vector<Wall> BoundaryParameters::walls(const unsigned int dim) const
+  void FaceEntries::add_parameters(ParameterHandler &prm)
+  {
+    const std::string what = " of the box" + phase + ": " + accepted + ".";
+    const auto path        = Utilities::split_string_list(subsection, '/');
+    for (const std::string &name : path)
+      prm.enter_subsection(name);
+    prm.add_parameter("Left", left, "Lower x face" + what);
+    prm.add_parameter("Right", right, "Upper x face" + what);
+    prm.add_parameter("Front", front, "Lower y face (3D only)" + what);
+    prm.add_parameter("Back", back, "Upper y face (3D only)" + what);
+    prm.add_parameter("Bottom", bottom, "Lower face of the last axis" + what);
+    prm.add_parameter("Top", top, "Upper face of the last axis" + what);
+    for (unsigned int i = 0; i < path.size(); ++i)
+      prm.leave_subsection();
+  }
+
+
+  void FaceEntries::check(const unsigned int dim) const
+  {
+    walls(3);
+    if (dim == 2)
+      for (const auto &[name, wall] : { std::make_pair("Front", front), std::make_pair("Back", back) })
+        require_entry(wall == default_side,
+                      { subsection, name, wall },
+                      "a plane strain run has no such wall. Remove the entry, or write \"Dimension = 3\".");
+  }
+
+
+  std::vector<Wall> FaceEntries::walls(const unsigned int dim) const
   {
     const auto faces = names(dim), entries = texts(dim);
     std::vector<Wall> result;
     for (unsigned int f = 0; f < faces.size(); ++f)
-      result.push_back(wall_from_text(faces[f], entries[f]));
+      {
+        const std::optional<Wall> wall = read(entries[f]);
+        if (!wall)
+          throw EntryError(entry_name(subsection, faces[f]) + " = " + entries[f] + ": write one of: " + accepted + '.');
+        result.push_back(*wall);
+      }
     return result;
+  }
+
+
+  namespace
+  {
+    std::optional<Wall> soil_wall(const std::string &text)
+    {
+      if (text == "fixed")
+        return Wall{ WallType::fixed };
+      if (text == "free slip")
+        return Wall{ WallType::free_slip };
+      if (text == "open")
+        return Wall{ WallType::open };
+      if (text.rfind("friction ", 0) == 0)
+        if (const double angle = number_of(Utilities::trim(text.substr(9))); angle >= 0. && angle < 90.)
+          return Wall{ WallType::friction, std::tan(angle * numbers::PI / 180.) };
+      return {};
+    }
+
+
+    std::optional<Wall> water_wall(const std::string &text)
+    {
+      if (text == "impermeable")
+        return Wall{ WallType::free_slip };
+      if (text == "no slip")
+        return Wall{ WallType::fixed };
+      if (text == "drained")
+        return Wall{ WallType::open };
+      if (text.rfind("drained ", 0) == 0)
+        if (const double pressure = number_of(Utilities::trim(text.substr(8))); std::isfinite(pressure))
+          return Wall{ WallType::open, 0., pressure };
+      return {};
+    }
+  } // namespace
+
+
+  BoundaryParameters::BoundaryParameters()
+      : FaceEntries("Boundaries",
+                    "",
+                    "fixed | free slip | friction ANGLE (degrees, 0 to below 90) | open",
+                    soil_wall,
+                    "free slip",
+                    "fixed",
+                    "open")
+  {
+  }
+
+
+  WaterBoundaryParameters::WaterBoundaryParameters()
+      : FaceEntries("Boundaries/Water",
+                    ", for the water",
+                    "impermeable | no slip | drained | drained PRESSURE (Pa)",
+                    water_wall,
+                    "impermeable",
+                    "impermeable",
+                    "drained")
+  {
   }
 
 
@@ -70,6 +153,21 @@ namespace scree
             }
         }
     return result;
+  }
+
+
+  template <int dim>
+  double BoundaryConditions<dim>::pressure(const std::uint8_t faces) const
+  {
+    double sum     = 0;
+    unsigned int n = 0;
+    for (unsigned int f = 0; f < 2 * dim; ++f)
+      if ((faces >> f) & 1 && is_open(f))
+        {
+          sum += wall_list[f].pressure;
+          ++n;
+        }
+    return n > 0 ? sum / n : 0.;
   }
 
 

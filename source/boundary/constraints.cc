@@ -10,7 +10,7 @@ namespace scree
   template <int dim>
   Constraints<dim>::Constraints(const BackgroundGrid<dim> &grid,
                                 const BoundaryConditions<dim> &walls,
-                                const WaterBoundaryConditions<dim> *water_walls)
+                                const BoundaryConditions<dim> *water_walls)
       : grid(grid)
       , walls(walls)
       , water_walls(water_walls)

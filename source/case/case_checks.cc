@@ -117,8 +117,8 @@ namespace scree
     {
       parameters.water.check(parameters.gravity, parameters.bodies.size());
       parameters.water_boundaries.check(parameters.dimension);
-      for (const WaterWall &wall : parameters.water_boundaries.walls(parameters.dimension))
-        require_entry(wall.type != WaterWallType::drained || wall.pressure >= parameters.pressure.cavitation_pressure,
+      for (const Wall &wall : parameters.water_boundaries.walls(parameters.dimension))
+        require_entry(wall.type != WallType::open || wall.pressure >= parameters.pressure.cavitation_pressure,
                       { "Water/Pressure", "Cavitation pressure", parameters.pressure.cavitation_pressure },
                       "a drained wall in subsection Boundaries/Water prescribes less: " + number_text(wall.pressure) +
                           " Pa. Water cavitates there. Write a lower number, or a higher pressure at the wall.");

@@ -573,7 +573,7 @@ namespace scree
   SeepageSurvey<dim>::SeepageSurvey(const BackgroundGrid<dim> &grid,
                                     const SeepageSoil &soil,
                                     const WaterParameters &water,
-                                    const WaterBoundaryConditions<dim> &walls,
+                                    const BoundaryConditions<dim> &walls,
                                     const double unit_weight,
                                     const LevelSet<dim> *ground)
       : grid(grid)
@@ -616,7 +616,7 @@ namespace scree
     const bool has_head = !std::isnan(heads[face]);
     if (has_head && height < heads[face])
       return heads[face];
-    if (!walls.is_drained(face))
+    if (!walls.is_open(face))
       return {};
     if (has_head)
       return no_head; // Above it water may leave.

@@ -85,9 +85,8 @@ namespace scree
       : expected_memory(require_memory<dim>(parameters, communicator))
       , grid(parameters.grid, places_of_points<dim>(parameters), communicator)
       , walls(grid, parameters.boundaries)
-      , water_walls(parameters.has_water
-                        ? std::make_unique<WaterBoundaryConditions<dim>>(grid, parameters.water_boundaries)
-                        : nullptr)
+      , water_walls(parameters.has_water ? std::make_unique<BoundaryConditions<dim>>(grid, parameters.water_boundaries)
+                                         : nullptr)
       , constraints(grid, walls, water_walls.get())
       , forcing(grid, parameters.gravity, parameters.body_forces, parameters.time_step.mass_scaling)
       , parameters(parameters)

@@ -235,56 +235,54 @@ namespace scree
       });
     }
 
-    /// `n_points` points of `n_coordinates` each a name, as in "toe: 0.4, 0.1; crest: 1, 2".
-    std::vector<NamedPlace> read_list(const std::string &entry,
-                                      const std::string &text,
-                                      const unsigned int n_points,
-                                      const unsigned int n_coordinates,
-                                      const std::string &shape)
+    /// An entry that lists places, and how it is written.
+    struct PlaceEntry
     {
-      std::vector<NamedPlace> list;
-      if (text.empty())
-        return list;
-      for (const std::string &part : Utilities::split_string_list(text, ';'))
-        {
-          const std::size_t colon = part.find(':');
-          NamedPlace place{ Utilities::trim(part.substr(0, colon)), {} };
-          if (colon != std::string::npos)
-            for (const std::string &point : Utilities::split_string_list(part.substr(colon + 1), " to "))
-              place.points.push_back(coordinates(point, n_coordinates));
-          bool reads = is_file_name(place.name) && place.points.size() == n_points;
-          for (const auto &point : place.points)
-            reads = reads && !point.empty();
-          require_entry(reads,
-                        { subsection, entry, text },
-                        quoted(part) + " does not read. Write " + shape +
-                            " in m, with a name of letters, digits, _ and -; separate several by semicolons.");
-          constexpr std::size_t longest = 200; // Names of files have 255 bytes at most.
-          require_entry(place.name.size() <= longest,
-                        { subsection, entry, text },
-                        scree::quoted(place.name) + " has " + std::to_string(place.name.size()) +
-                            " letters, and the name of a probe, which is that of its file, at most " +
-                            std::to_string(longest) + ". Write a shorter name.");
-          list.push_back(place);
-        }
-      return list;
-    }
-
-    void require_inside(const std::string &entry,
-                        const std::string &text,
-                        const std::vector<NamedPlace> &list,
-                        const GridParameters &grid)
-    {
-      for (const NamedPlace &place : list)
-        for (const auto &point : place.points)
-          for (unsigned int a = 0; a < point.size(); ++a)
-            require_entry(point[a] >= grid.lower_corner[a] && point[a] <= grid.upper_corner[a],
-                          { subsection, entry, text },
-                          quoted(place.name) + " lies outside the box of subsection Mesh, from " +
-                              number_text(grid.lower_corner) + " to " + number_text(grid.upper_corner) +
-                              ". Move it, or a corner of the box.");
-    }
+      const char *name;
+      std::string ProbeParameters::*text;
+      unsigned int n_points, n_axes_less; // points of a place, and how many coordinates they have less than the scene
+      const char *shape[2];               // of a place, in 2D and 3D
+    };
+    const PlaceEntry place_entries[] = {
+      { "Places", &ProbeParameters::places, 1, 0, { "NAME: x, y", "NAME: x, y, z" } },
+      { "Lines", &ProbeParameters::lines, 2, 0, { "NAME: x, y to x, y", "NAME: x, y, z to x, y, z" } },
+      { "Verticals", &ProbeParameters::verticals, 1, 1, { "NAME: x", "NAME: x, y" } }
+    };
   } // namespace
+
+
+  std::vector<NamedPlace> ProbeParameters::list_of(const std::string &entry, const unsigned int dim) const
+  {
+    constexpr std::size_t longest = 200; // Names of files have 255 bytes at most.
+    const PlaceEntry &kind        = *std::find_if(
+        std::begin(place_entries), std::end(place_entries), [&](const PlaceEntry &one) { return one.name == entry; });
+    const std::string &text = this->*kind.text;
+    std::vector<NamedPlace> list;
+    if (text.empty())
+      return list;
+    for (const std::string &part : Utilities::split_string_list(text, ';'))
+      {
+        const std::size_t colon = part.find(':');
+        NamedPlace place{ Utilities::trim(part.substr(0, colon)), {} };
+        if (colon != std::string::npos)
+          for (const std::string &point : Utilities::split_string_list(part.substr(colon + 1), " to "))
+            place.points.push_back(coordinates(point, dim - kind.n_axes_less));
+        const bool reads =
+            is_file_name(place.name) && place.points.size() == kind.n_points &&
+            std::none_of(place.points.begin(), place.points.end(), [](const auto &point) { return point.empty(); });
+        require_entry(reads,
+                      { subsection, entry, text },
+                      quoted(part) + " does not read. Write " + kind.shape[dim - 2] +
+                          " in m, with a name of letters, digits, _ and -; separate several by semicolons.");
+        require_entry(place.name.size() <= longest,
+                      { subsection, entry, text },
+                      scree::quoted(place.name) + " has " + std::to_string(place.name.size()) +
+                          " letters, and the name of a probe, which is that of its file, at most " +
+                          std::to_string(longest) + ". Write a shorter name.");
+        list.push_back(place);
+      }
+    return list;
+  }
 
 
   void ProbeParameters::add_parameters(ParameterHandler &prm)
@@ -321,43 +319,29 @@ namespace scree
   }
 
 
-  std::vector<NamedPlace> ProbeParameters::list_of_places(const unsigned int dim) const
-  {
-    return read_list("Places", places, 1, dim, dim == 2 ? "NAME: x, y" : "NAME: x, y, z");
-  }
-
-
-  std::vector<NamedPlace> ProbeParameters::list_of_lines(const unsigned int dim) const
-  {
-    return read_list("Lines", lines, 2, dim, dim == 2 ? "NAME: x, y to x, y" : "NAME: x, y, z to x, y, z");
-  }
-
-
-  std::vector<NamedPlace> ProbeParameters::list_of_verticals(const unsigned int dim) const
-  {
-    return read_list("Verticals", verticals, 1, dim - 1, dim == 2 ? "NAME: x" : "NAME: x, y");
-  }
-
-
   void ProbeParameters::check(const GridParameters &grid, const unsigned int dim, const bool has_soil) const
   {
     std::set<std::string> names{ "front", "walls" };
-    const auto check_list =
-        [&](const std::string &entry, const std::string &text, const std::vector<NamedPlace> &list) {
-          require_inside(entry, text, list, grid);
-          for (const NamedPlace &place : list)
-            require_entry(names.insert(place.name).second,
-                          { subsection, entry, text },
-                          quoted(place.name) + " is the name of another probe. Each has a file of its own name: write "
-                                               "another one.");
-        };
-    check_list("Places", places, list_of_places(dim));
-    check_list("Lines", lines, list_of_lines(dim));
-    check_list("Verticals", verticals, list_of_verticals(dim));
-    for (const NamedPlace &line : list_of_lines(dim))
-      require_entry(line.points[0] != line.points[1],
-                    { subsection, "Lines", lines },
-                    "both ends of " + quoted(line.name) + " are the same. Move one, or write it among the \"Places\".");
+    for (const PlaceEntry &kind : place_entries)
+      for (const NamedPlace &place : list_of(kind.name, dim))
+        {
+          const EntryValue entry(subsection, kind.name, this->*kind.text);
+          for (const auto &point : place.points)
+            for (unsigned int a = 0; a < point.size(); ++a)
+              require_entry(point[a] >= grid.lower_corner[a] && point[a] <= grid.upper_corner[a],
+                            entry,
+                            quoted(place.name) + " lies outside the box of subsection Mesh, from " +
+                                number_text(grid.lower_corner) + " to " + number_text(grid.upper_corner) +
+                                ". Move it, or a corner of the box.");
+          require_entry(names.insert(place.name).second,
+                        entry,
+                        quoted(place.name) + " is the name of another probe. Each has a file of its own name: write "
+                                             "another one.");
+          require_entry(place.points.size() < 2 || place.points[0] != place.points[1],
+                        entry,
+                        "both ends of " + quoted(place.name) +
+                            " are the same. Move one, or write it among the \"Places\".");
+        }
     require_entry(has_soil || !displacement,
                   { subsection, "Displacement", "true" },
                   "this entry has no effect, as there is no soil: entry \"Bodies\" is none. Remove it.");
@@ -383,7 +367,7 @@ namespace scree
   Probes<dim>::Probes(const ProbeParameters &parameters,
                       const BackgroundGrid<dim> &grid,
                       const BoundaryConditions<dim> &box_walls,
-                      const WaterBoundaryConditions<dim> *water_walls,
+                      const BoundaryConditions<dim> *water_walls,
                       const bool has_soil,
                       RunFolder &folder)
       : has_soil(has_soil)
@@ -401,16 +385,17 @@ namespace scree
       return group;
     };
 
+    const std::vector<NamedPlace> list_of_places = parameters.list_of("Places", dim);
     std::vector<Point<dim>> points;
-    for (const NamedPlace &place : parameters.list_of_places(dim))
+    for (const NamedPlace &place : list_of_places)
       points.emplace_back(vector_of<dim>(place.points[0].data()));
-    Group &places  = new_group(false, parameters.list_of_places(dim));
+    Group &places  = new_group(false, list_of_places);
     places.columns = names;
     places.rows    = [this, values = PlaceValues<dim>(grid, points)](const auto &state) {
       return state_at(values, state);
     };
 
-    for (const NamedPlace &line : parameters.list_of_lines(dim))
+    for (const NamedPlace &line : parameters.list_of("Lines", dim))
       {
         Group &group  = new_group(true, { line });
         group.columns = { "Distance (m)", "x (m)", "y (m)" };
@@ -430,13 +415,14 @@ namespace scree
         };
       }
 
-    Group &verticals = new_group(false, parameters.list_of_verticals(dim));
+    const std::vector<NamedPlace> list_of_verticals = parameters.list_of("Verticals", dim);
+    Group &verticals                                = new_group(false, list_of_verticals);
     if (has_soil)
       verticals.columns = { "Surface height (m)", "Thickness (m)" };
     if (has_water)
       verticals.columns.push_back("Water level (m)");
     Rows feet;
-    for (const NamedPlace &vertical : parameters.list_of_verticals(dim))
+    for (const NamedPlace &vertical : list_of_verticals)
       feet.push_back(vertical.points[0]);
     verticals.rows = [this, feet, &grid](const auto &state) {
       Rows rows(feet.size());

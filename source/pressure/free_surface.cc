@@ -33,7 +33,7 @@ namespace scree
   template <int dim>
   FreeSurface<dim>::FreeSurface(const BackgroundGrid<dim> &grid,
                                 const NodeNumbering<dim> &vertices,
-                                const WaterBoundaryConditions<dim> &walls,
+                                const BoundaryConditions<dim> &walls,
                                 const CutCells<dim> *cut_cells,
                                 const double air_entry)
       : grid(grid)
@@ -216,7 +216,7 @@ namespace scree
       distances[vertex]     = distance_from_fill(fill);
       kind                  = PressureDofType::dry;
       double value          = 0.;
-      if (sums[wet_cells] > 0. && walls.prescribes_pressure(vertices.faces(vertex)))
+      if (sums[wet_cells] > 0. && (walls.open_faces() & vertices.faces(vertex)) != 0)
         {
           kind  = PressureDofType::prescribed;
           value = walls.pressure(vertices.faces(vertex));

@@ -9,7 +9,7 @@ namespace scree
 
   template <int dim>
   PorePressure<dim>::PorePressure(const BackgroundGrid<dim> &grid,
-                                  const WaterBoundaryConditions<dim> &walls,
+                                  const BoundaryConditions<dim> &walls,
                                   const PressureParameters &parameters,
                                   const WaterParameters &water,
                                   const CutCells<dim> *cut_cells,

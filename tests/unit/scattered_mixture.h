@@ -80,7 +80,7 @@ struct ScatteredMixture
   const scree::RigidBoundary<dim> ground;
   const scree::CutCells<dim> cut_cells;
   const scree::BoundaryConditions<dim> walls;
-  const scree::WaterBoundaryConditions<dim> water_walls;
+  const scree::BoundaryConditions<dim> water_walls;
   scree::Constraints<dim> constraints;
   const scree::BodyForces<dim> forcing;
   const scree::WallGaps<dim> wall_gaps;

@@ -8,8 +8,27 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <optional>
+
 namespace scree
 {
+  /// What a face of the box does to soil or water.
+  enum class WallType
+  {
+    fixed,     ///< no motion; entry of the water: no slip
+    free_slip, ///< no motion along the normal; entry of the water: impermeable
+    friction,  ///< soil: no motion into the wall, Coulomb friction along it; the soil may lift off
+    open       ///< points may leave; entry of the water: drained, its pressure is prescribed
+  };
+
+  /// What one face of the box does to soil or water.
+  struct Wall
+  {
+    WallType type               = WallType::open; ///< constraint of the velocity
+    double friction_coefficient = 0;              ///< tan of the friction angle; walls with friction only
+    double pressure             = 0;              ///< of the water, Pa; open walls only
+  };
+
   /// One entry a face of the box, in a subsection of walls.
   struct FaceEntries
   {
@@ -36,84 +55,72 @@ namespace scree
       return { left, right, front, back, bottom, top };
     }
 
-    /// Declares the entries in the subsection that is open; `what` goes on after the name of the face.
-    void add_parameters(dealii::ParameterHandler &prm, const std::string &what)
-    {
-      prm.add_parameter("Left", left, "Lower x face" + what);
-      prm.add_parameter("Right", right, "Upper x face" + what);
-      prm.add_parameter("Front", front, "Lower y face (3D only)" + what);
-      prm.add_parameter("Back", back, "Upper y face (3D only)" + what);
-      prm.add_parameter("Bottom", bottom, "Lower face of the last axis" + what);
-      prm.add_parameter("Top", top, "Upper face of the last axis" + what);
-    }
-
-    /// Throws EntryError if an entry of a wall that is not there differs from the default.
-    void check(const std::string &subsection, const unsigned int dim, const FaceEntries &defaults) const
-    {
-      if (dim == 2)
-        for (const auto &[name, wall, otherwise] :
-             { std::make_tuple("Front", front, defaults.front), std::make_tuple("Back", back, defaults.back) })
-          require_entry(wall == otherwise,
-                        { subsection, name, wall },
-                        "a plane strain run has no such wall. Remove the entry, or write \"Dimension = 3\".");
-    }
-  };
-
-  /// What a face of the box does to the soil.
-  enum class WallType
-  {
-    fixed,     ///< no motion
-    free_slip, ///< no motion along the normal
-    friction,  ///< no motion into the wall, Coulomb friction along it; the soil may lift off
-    open       ///< nothing; points may leave
-  };
-
-  /// What one face of the box does to the soil.
-  struct Wall
-  {
-    WallType type               = WallType::open; ///< constraint of the soil
-    double friction_coefficient = 0;              ///< tan of the friction angle
-  };
-
-  /// Subsection Boundaries: one entry a face of the box.
-  struct BoundaryParameters : FaceEntries
-  {
-    BoundaryParameters()
-        : FaceEntries{ "free slip", "free slip", "free slip", "free slip", "fixed", "open" }
-    {
-    }
-
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError if an entry does not read as a wall, or is set for a wall that is not there.
-    void check(const unsigned int dim) const
-    {
-      walls(3);
-      FaceEntries::check("Boundaries", dim, BoundaryParameters());
-    }
+    void check(const unsigned int dim) const;
 
-    /// The walls in deal.II's numbering of the faces.
+    /// The walls in deal.II's numbering of the faces. Throws EntryError if an entry does not read as a wall.
     std::vector<Wall> walls(const unsigned int dim) const;
+
+  protected:
+    using ReadWall = std::optional<Wall> (*)(const std::string &text); ///< nothing: the text is no wall
+
+    /// @param subsection its path
+    /// @param phase on which the walls act, for the descriptions of the entries
+    /// @param accepted what may be written, for descriptions and messages
+    /// @param side default of the walls but for bottom and top
+    FaceEntries(const std::string &subsection,
+                const std::string &phase,
+                const std::string &accepted,
+                const ReadWall read,
+                const std::string &side,
+                const std::string &bottom,
+                const std::string &top);
+
+  private:
+    std::string subsection, phase, accepted, default_side;
+    ReadWall read;
   };
 
-  /// Walls of the box acting on the soil at the nodes.
+  /// Subsection Boundaries: the walls for the soil.
+  struct BoundaryParameters : FaceEntries
+  {
+    BoundaryParameters();
+  };
+
+  /// Subsection Water of subsection Boundaries: the walls for the water.
+  struct WaterBoundaryParameters : FaceEntries
+  {
+    WaterBoundaryParameters();
+  };
+
+  /// Walls of the box acting on soil or water at the nodes. `faces` as in BackgroundGrid::node_faces().
   template <int dim>
   class BoundaryConditions
   {
   public:
     /// Reads the entries; throws EntryError if one does not read as a wall.
-    BoundaryConditions(const BackgroundGrid<dim> &grid, const BoundaryParameters &parameters)
+    BoundaryConditions(const BackgroundGrid<dim> &grid, const FaceEntries &parameters)
         : grid(grid)
         , wall_list(parameters.walls(dim))
     {
     }
 
-    /// What the walls do to the soil at a node that lies on the given faces of the box, see
-    /// BackgroundGrid::node_faces().
+    /// What the walls do at a node that lies on the given faces of the box.
     std::vector<NodeConstraint<dim>> constraints(const std::uint8_t faces) const;
 
-    /// Which of these faces take the impulses on the soil.
+    /// The directions along which walls without friction hold a node on these faces.
+    ConstrainedDirections<dim> held_directions(const std::uint8_t faces) const
+    {
+      ConstrainedDirections<dim> held;
+      for (const NodeConstraint<dim> &constraint : constraints(faces))
+        held.hold(constraint.normal);
+      return held;
+    }
+
+    /// Which of these faces take the impulses.
     BearingFaces<dim> bearing_faces(const std::uint8_t faces) const
     {
       const auto type = [this](const unsigned int face) { return wall_list[face].type; };
@@ -129,11 +136,35 @@ namespace scree
       return wall_list;
     }
 
+    /// Whether points may leave through a face.
+    bool is_open(const unsigned int face) const
+    {
+      return wall_list[face].type == WallType::open;
+    }
+
+    /// The faces that are open, bit f: face f.
+    std::uint8_t open_faces() const
+    {
+      std::uint8_t faces = 0;
+      for (unsigned int f = 0; f < 2 * dim; ++f)
+        faces |= (is_open(f) ? 1u : 0u) << f;
+      return faces;
+    }
+
+    /// The faces that are not.
+    std::uint8_t closed_faces() const
+    {
+      return ((1u << 2 * dim) - 1) & ~open_faces();
+    }
+
+    /// Pressure of the open ones among the faces, Pa: their mean, or 0 if there is none.
+    double pressure(const std::uint8_t faces) const;
+
     /// Name of the face of the box nearest to a point outside, and whether it is open.
     std::pair<std::string, bool> face_crossed(const dealii::Point<dim> &location) const
     {
       const unsigned int face = nearest_face(grid, location);
-      return { FaceEntries::names(dim)[face], wall_list[face].type == WallType::open };
+      return { FaceEntries::names(dim)[face], is_open(face) };
     }
 
   private:

@@ -2,7 +2,7 @@
 #ifndef scree_boundary_constraints_h
 #define scree_boundary_constraints_h
 
-#include <scree/boundary/water_walls.h>
+#include <scree/boundary/boundary_conditions.h>
 #include <scree/particles/region.h>
 
 namespace scree
@@ -16,7 +16,7 @@ namespace scree
     /// @param water_walls null in a dry scene
     Constraints(const BackgroundGrid<dim> &grid,
                 const BoundaryConditions<dim> &walls,
-                const WaterBoundaryConditions<dim> *water_walls);
+                const BoundaryConditions<dim> *water_walls);
 
     /// Fits the constraints to the grid's current nodes.
     void reinit();
@@ -99,10 +99,7 @@ namespace scree
     /// Faces of the box that are not open to soil, bit f: face f.
     std::uint8_t faces_closed_to_soil() const
     {
-      std::uint8_t faces = 0;
-      for (unsigned int f = 0; f < 2 * dim; ++f)
-        faces |= (walls.walls()[f].type == WallType::open ? 0u : 1u) << f;
-      return faces;
+      return walls.closed_faces();
     }
 
     /// The same, and faces that are not open to water, if there is any.
@@ -183,7 +180,7 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     const BoundaryConditions<dim> &walls;
-    const WaterBoundaryConditions<dim> *water_walls;
+    const BoundaryConditions<dim> *water_walls;
     const bool is_unilateral;
     std::unique_ptr<Region<dim>> gate;
     std::vector<char> rigid;                  // by node; empty: none

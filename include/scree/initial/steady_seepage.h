@@ -2,7 +2,7 @@
 #ifndef scree_initial_steady_seepage_h
 #define scree_initial_steady_seepage_h
 
-#include <scree/boundary/water_walls.h>
+#include <scree/boundary/boundary_conditions.h>
 #include <scree/seeding/seeding.h>
 
 #include <deal.II/base/function_lib.h>
@@ -31,7 +31,7 @@ namespace scree
     SeepageSurvey(const BackgroundGrid<dim> &grid,
                   const SeepageSoil &soil,
                   const WaterParameters &water,
-                  const WaterBoundaryConditions<dim> &walls,
+                  const BoundaryConditions<dim> &walls,
                   const double unit_weight,
                   const LevelSet<dim> *ground);
 
@@ -58,7 +58,7 @@ namespace scree
     std::optional<double> head_of_wall(const unsigned int face, const double height) const;
 
   private:
-    const WaterBoundaryConditions<dim> &walls;
+    const BoundaryConditions<dim> &walls;
     const LevelSet<dim> *ground;
     const double unit_weight; // of water, N/m^3
     const std::vector<double> heads;

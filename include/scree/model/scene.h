@@ -133,11 +133,11 @@ namespace scree
       return water.empty() ? "point" : "soil or water point";
     }
 
-    const MemoryEstimate expected_memory;                      ///< estimate from the entries
-    BackgroundGrid<dim> grid;                                  ///< mesh and nodes of the velocity
-    BoundaryConditions<dim> walls;                             ///< faces of the box acting on the soil
-    std::unique_ptr<WaterBoundaryConditions<dim>> water_walls; ///< null in a dry scene
-    Constraints<dim> constraints;                              ///< constraints of the nodes
+    const MemoryEstimate expected_memory;                 ///< estimate from the entries
+    BackgroundGrid<dim> grid;                             ///< mesh and nodes of the velocity
+    BoundaryConditions<dim> walls;                        ///< faces of the box acting on the soil
+    std::unique_ptr<BoundaryConditions<dim>> water_walls; ///< null in a dry scene
+    Constraints<dim> constraints;                         ///< constraints of the nodes
     std::unique_ptr<Constraints<dim>> walls_alone;  ///< without rigid bodies, for what slides on them; null without it
     BodyForces<dim> forcing;                        ///< gravity, body force and motion of the base
     std::list<SoilBody<dim>> bodies;                ///< bodies of soil, in the order of the case

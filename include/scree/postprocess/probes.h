@@ -2,7 +2,7 @@
 #ifndef scree_postprocess_probes_h
 #define scree_postprocess_probes_h
 
-#include <scree/boundary/water_walls.h>
+#include <scree/boundary/boundary_conditions.h>
 #include <scree/io/run_folder.h>
 #include <scree/postprocess/measures.h>
 #include <scree/step/budget.h>
@@ -107,12 +107,12 @@ namespace scree
     /// @param water_walls null in a dry scene
     WallForces(const BackgroundGrid<dim> &grid,
                const BoundaryConditions<dim> &walls,
-               const WaterBoundaryConditions<dim> *water_walls)
+               const BoundaryConditions<dim> *water_walls)
         : grid(grid)
         , is_wet(water_walls != nullptr)
     {
       for (unsigned int f = 0; f < 2 * dim; ++f)
-        if (walls.walls()[f].type != WallType::open || (is_wet && !water_walls->is_drained(f)))
+        if (!walls.is_open(f) || (is_wet && !water_walls->is_open(f)))
           faces.push_back(f);
     }
 
@@ -184,14 +184,9 @@ namespace scree
     /// Throws EntryError at what does not read, lies outside the box or has no name of its own.
     void check(const GridParameters &grid, const unsigned int dim, const bool has_soil) const;
 
-    /// What the entries list. Throw EntryError at what does not read.
-    std::vector<NamedPlace> list_of_places(const unsigned int dim) const;
-
-    /// The same of the lines.
-    std::vector<NamedPlace> list_of_lines(const unsigned int dim) const;
-
-    /// The same of the verticals; their points have dim - 1 coordinates.
-    std::vector<NamedPlace> list_of_verticals(const unsigned int dim) const;
+    /// What entry `Places`, `Lines` or `Verticals` lists; points of verticals have dim - 1 coordinates. Throws
+    /// EntryError at what does not read.
+    std::vector<NamedPlace> list_of(const std::string &entry, const unsigned int dim) const;
   };
 
   /// What probes look at.
@@ -215,7 +210,7 @@ namespace scree
     Probes(const ProbeParameters &parameters,
            const BackgroundGrid<dim> &grid,
            const BoundaryConditions<dim> &walls,
-           const WaterBoundaryConditions<dim> *water_walls,
+           const BoundaryConditions<dim> *water_walls,
            const bool has_soil,
            RunFolder &folder);
 

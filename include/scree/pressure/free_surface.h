@@ -3,7 +3,7 @@
 #define scree_pressure_free_surface_h
 
 #include <scree/mesh/node_values.h>
-#include <scree/boundary/water_walls.h>
+#include <scree/boundary/boundary_conditions.h>
 #include <scree/mixture/mixture.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
@@ -41,7 +41,7 @@ namespace scree
     /// @param air_entry pressure of the soil, Pa; 0: its water has no suction at the surface
     FreeSurface(const BackgroundGrid<dim> &grid,
                 const NodeNumbering<dim> &vertices,
-                const WaterBoundaryConditions<dim> &walls,
+                const BoundaryConditions<dim> &walls,
                 const CutCells<dim> *cut_cells,
                 const double air_entry = 0.);
 
@@ -131,7 +131,7 @@ namespace scree
     /// Whether a face of the box prescribes the pressure.
     bool is_drained(const unsigned int face) const
     {
-      return walls.is_drained(face);
+      return walls.is_open(face);
     }
 
     /// Whether it prescribes one other than 0.
@@ -245,7 +245,7 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &vertices;
-    const WaterBoundaryConditions<dim> &walls;
+    const BoundaryConditions<dim> &walls;
     const CutCells<dim> *cut_cells; // may be null
     NodeValues<dim, 4> filling;     // Filling
     NodeValues<dim, 1> soil;        // grains and pores under a vertex's linear function, m^3

@@ -19,7 +19,7 @@ namespace scree
 
     /// @param cut_cells what rigid ground leaves of the cells; null: all
     PorePressure(const BackgroundGrid<dim> &grid,
-                 const WaterBoundaryConditions<dim> &walls,
+                 const BoundaryConditions<dim> &walls,
                  const PressureParameters &parameters,
                  const WaterParameters &water,
                  const CutCells<dim> *cut_cells,

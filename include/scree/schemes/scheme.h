@@ -29,14 +29,14 @@ namespace scree
     std::vector<Constraints<dim> *> constraints;  ///< of each group of bodies that stick to each other; with water one
     std::vector<ContactPair> contacts;            ///< of these groups
 
-    std::list<WaterPhase<dim>> &water;               ///< empty in a dry scene
-    const WaterParameters &water_parameters;         ///< entries of subsection Water
-    const PressureParameters &pressure_parameters;   ///< entries of subsection Pressure
-    const WaterBoundaryConditions<dim> *water_walls; ///< null in a dry scene
-    const std::list<Inflow<dim>> &inflows;           ///< inflows of soil and water
-    const RigidBoundary<dim> *ground;                ///< bed and obstacles; null if there are none
-    const CutCells<dim> *cut_cells;                  ///< what this leaves of the cells; null: all
-    unsigned int soil_points;                        ///< fewest of a body in a cell, along an axis
+    std::list<WaterPhase<dim>> &water;             ///< empty in a dry scene
+    const WaterParameters &water_parameters;       ///< entries of subsection Water
+    const PressureParameters &pressure_parameters; ///< entries of subsection Pressure
+    const BoundaryConditions<dim> *water_walls;    ///< null in a dry scene
+    const std::list<Inflow<dim>> &inflows;         ///< inflows of soil and water
+    const RigidBoundary<dim> *ground;              ///< bed and obstacles; null if there are none
+    const CutCells<dim> *cut_cells;                ///< what this leaves of the cells; null: all
+    unsigned int soil_points;                      ///< fewest of a body in a cell, along an axis
   };
 
   /// What a step is. to_grid(), solve() and to_points() are called in this order; then the points are sorted.

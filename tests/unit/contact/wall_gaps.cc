@@ -105,7 +105,7 @@ struct Box
 
   BackgroundGrid<2> grid;
   const BoundaryConditions<2> walls;
-  const WaterBoundaryConditions<2> water_walls;
+  const BoundaryConditions<2> water_walls;
   Constraints<2> constraints;
   WallGaps<2> gaps;
   PointSet<2> points;

@@ -79,7 +79,7 @@ void test_water()
   wet.left  = "no slip";
   wet.right = "drained 3e3";
   wet.check(3);
-  const WaterBoundaryConditions<3> water(grid, wet);
+  const BoundaryConditions<3> water(grid, wet);
   const std::uint8_t left = 1, right = 2, front = 4, top = 32;
   const auto held = [](const ConstrainedDirections<3> &directions) {
     unsigned int axes = 0;
@@ -91,8 +91,8 @@ void test_water()
   AssertThrow(held(water.held_directions(left)) == 7 && held(water.held_directions(front)) == 2 &&
                   held(water.held_directions(right | front)) == 2 && held(water.held_directions(top)) == 0,
               ExcMessage("The water's walls hold the wrong components."));
-  AssertThrow(water.prescribes_pressure(top | left) && !water.prescribes_pressure(left | front) &&
-                  water.is_drained(1) && !water.is_drained(0),
+  AssertThrow((water.open_faces() & (top | left)) != 0 && (water.open_faces() & (left | front)) == 0 &&
+                  water.is_open(1) && !water.is_open(0),
               ExcMessage("The wrong walls are drained."));
   AssertThrow(water.pressure(right) == 3000 && water.pressure(top) == 0 && water.pressure(right | top) == 1500 &&
                   water.pressure(left) == 0,

@@ -204,7 +204,7 @@ public:
   PoreField<dim> pores;
   NodalField<dim> soil_field, water_field, excess;
   FlowField<dim> flow, forces;
-  const WaterBoundaryConditions<dim> walls;
+  const BoundaryConditions<dim> walls;
   FreeSurface<dim> surface;
   const GroundGaps<dim> gaps;
   FilledPart<dim> part;
