@@ -117,7 +117,13 @@ namespace scree
       }
     hold_at_inflows();
     if (parameters.rain.is_set())
-      rain.emplace(parameters.rain, grid, parameters.grid.cell_size / parameters.water.points_per_cell, rained_soil());
+      {
+        RainedSoil soil{ parameters.grid.cell_size / points_per_cell().first, 1. };
+        for (const SoilBody<dim> &body : bodies) // the least porosity of those that take water
+          if (const double porosity = parameters.find_body(body.name)->initial_porosity(); !body.is_rigid && body.drag)
+            soil.porosity = std::min(soil.porosity, std::max(porosity, 0.1));
+        rain.emplace(parameters.rain, grid, parameters.grid.cell_size / parameters.water.points_per_cell, soil);
+      }
     if (parameters.surface_load.is_set())
       loads.emplace_back(grid, parameters.surface_load, points_per_cell().second);
   }
@@ -196,6 +202,13 @@ namespace scree
   template <int dim>
   std::unique_ptr<Scheme<dim>> Scene<dim>::make_scheme(TimerOutput &timer)
   {
+    std::vector<Constraints<dim> *> constraints_of_groups; // of bodies that stick to each other
+    for (unsigned int g = 0; g < groups.n; ++g)
+      {
+        const bool sticks_to_rigid = std::any_of(
+            bodies.begin(), bodies.end(), [g](const SoilBody<dim> &body) { return body.is_rigid && body.group == g; });
+        constraints_of_groups.push_back(walls_alone && !sticks_to_rigid ? walls_alone.get() : &constraints);
+      }
     const Model<dim> model{ grid,
                             forcing,
                             parameters.transfer,
@@ -203,7 +216,7 @@ namespace scree
                             bodies,
                             loads,
                             rigid_surfaces(),
-                            constraints_of_groups(),
+                            constraints_of_groups,
                             groups.pairs,
                             water,
                             parameters.water,
@@ -216,20 +229,6 @@ namespace scree
     if (parameters.has_water)
       return std::make_unique<TwoPhaseScheme<dim>>(model, timer);
     return std::make_unique<ExplicitScheme<dim>>(model, timer);
-  }
-
-
-  template <int dim>
-  std::vector<Constraints<dim> *> Scene<dim>::constraints_of_groups()
-  {
-    std::vector<Constraints<dim> *> result;
-    for (unsigned int g = 0; g < groups.n; ++g)
-      {
-        const bool sticks_to_rigid = std::any_of(
-            bodies.begin(), bodies.end(), [g](const SoilBody<dim> &body) { return body.is_rigid && body.group == g; });
-        result.push_back(walls_alone && !sticks_to_rigid ? walls_alone.get() : &constraints);
-      }
-    return result;
   }
 
 
@@ -287,7 +286,17 @@ namespace scree
     unsigned int number = 0;
     for (const Inflow<dim> &inflow : inflows)
       constraints.set_inflow_velocity(number++, inflow.velocity());
-    uncover_walls();
+
+    // Walls do not act where obstacles that move cover them.
+    if (std::none_of(obstacles.begin(), obstacles.end(), [](const auto &obstacle) { return obstacle.is_moving; }))
+      return;
+    std::vector<std::pair<unsigned int, std::uint8_t>> covered;
+    for (const Obstacle<dim> &obstacle : obstacles)
+      if (obstacle.is_moving)
+        obstacle.add_covered_nodes(covered);
+    constraints.cover(covered);
+    if (walls_alone)
+      walls_alone->cover(covered);
   }
 
 
@@ -364,25 +373,29 @@ namespace scree
 
 
   template <int dim>
-  std::vector<char> Scene<dim>::rigid_nodes() const
+  void Scene<dim>::hold_rigid_nodes()
   {
-    if (std::none_of(bodies.begin(), bodies.end(), [](const auto &body) { return body.is_rigid; }))
-      return {};
-    NodalField<dim> field(grid); // sums over ranks: the points around a node may be another's
-    for (const auto &body : bodies)
-      if (body.is_rigid)
-        for (const auto &cell : body.points.cells())
-          {
-            field.activate_cell(cell.cell);
-            for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
-              field[grid.nodes(cell.cell)[i]][NodalField<dim>::mass] = 1.;
-          }
-    field.add_contributions();
-    field.update_ghosts();
-    std::vector<char> is_rigid(grid.numbering().n_local());
-    for (unsigned int node = 0; node < is_rigid.size(); ++node)
-      is_rigid[node] = field[node][NodalField<dim>::mass] > 0.;
-    return is_rigid;
+    std::vector<char> is_rigid; // by node; empty: none
+    if (std::any_of(bodies.begin(), bodies.end(), [](const auto &body) { return body.is_rigid; }))
+      {
+        NodalField<dim> field(grid); // sums over ranks: the points around a node may be another's
+        for (const auto &body : bodies)
+          if (body.is_rigid)
+            for (const auto &cell : body.points.cells())
+              {
+                field.activate_cell(cell.cell);
+                for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+                  field[grid.nodes(cell.cell)[i]][NodalField<dim>::mass] = 1.;
+              }
+        field.add_contributions();
+        field.update_ghosts();
+        is_rigid.resize(grid.numbering().n_local());
+        for (unsigned int node = 0; node < is_rigid.size(); ++node)
+          is_rigid[node] = field[node][NodalField<dim>::mass] > 0.;
+      }
+    constraints.hold_soil(is_rigid);
+    if (walls_alone)
+      walls_alone->reinit();
   }
 
 
@@ -414,17 +427,6 @@ namespace scree
         }
     if (rain)
       let_rain(time, time_step, pressure, totals);
-  }
-
-
-  template <int dim>
-  RainedSoil Scene<dim>::rained_soil() const
-  {
-    RainedSoil soil{ parameters.grid.cell_size / points_per_cell().first, 1. };
-    for (const SoilBody<dim> &body : bodies)
-      if (const double porosity = parameters.find_body(body.name)->initial_porosity(); !body.is_rigid && body.drag)
-        soil.porosity = std::min(soil.porosity, std::max(porosity, 0.1));
-    return soil;
   }
 
 
@@ -860,23 +862,15 @@ namespace scree
 
 
   template <int dim>
-  void Scene<dim>::require_viscosity(const double stable_step) const
+  void Scene<dim>::require_steps(const double stable_step, const Speeds &speeds) const
   {
-    constexpr double most = 1e10; // beyond, rounding of the velocities outweighs all other forces
+    constexpr double most_stress = 1e10; // beyond, rounding of the velocities outweighs all other forces
     const double stress =
         parameters.water.viscosity / parameters.water.density * stable_step / (grid.cell_size() * grid.cell_size());
-    require_entry(stress <= most,
+    require_entry(!parameters.has_water || stress <= most_stress,
                   { "Water", "Viscosity", parameters.water.viscosity },
                   "in a step of " + number_text(stable_step) + " s it would spread momentum over " +
                       number_text(std::sqrt(stress)) + " cells, and at most 1e5 are possible. Write a smaller one.");
-  }
-
-
-  template <int dim>
-  void Scene<dim>::require_steps(const double stable_step, const Speeds &speeds) const
-  {
-    if (parameters.has_water)
-      require_viscosity(stable_step);
     constexpr double most_steps = 1e10; // months, even of the smallest mesh
     const double time           = std::max(parameters.end_time, parameters.settling.maximum_time);
     if (time / stable_step <= most_steps)

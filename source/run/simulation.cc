@@ -188,8 +188,9 @@ namespace scree
     partition.finish(Work::to_nodes);
     scheme->solve(time_step, step);
     partition.finish(Work::solving);
-    if (is_released)
-      scene.move_obstacles(time_step); // Points in water are put back to where the ground is then.
+    if (is_released) // Points in water are put back to where the ground is then.
+      for (Obstacle<dim> &obstacle : scene.obstacles)
+        obstacle.end_step(time_step);
     try
       {
         scheme->to_points(time_step, skeleton_damping_time(), step);

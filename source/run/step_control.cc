@@ -66,13 +66,6 @@ namespace scree
 
 
   template <int dim>
-  double StepControl<dim>::part_left() const
-  {
-    return clock.part_left(scene.grid.cell_size(), speeds.wave, speeds.points);
-  }
-
-
-  template <int dim>
   void StepControl<dim>::require_stable_step(const double largest_step, const double first_step) const
   {
     // A run that gains energy would creep on with ever smaller steps.
@@ -149,15 +142,14 @@ namespace scree
     const auto lose = [&](const std::string &name,
                           const std::vector<LostPoint<dim>> &points,
                           const auto &layout,
-                          const auto &walls,
+                          const BoundaryConditions<dim> &walls,
                           double &lost_mass) {
       for (const LostPoint<dim> &point : points)
         {
-          const auto face_and_whether_open = walls.face_crossed(point.location);
-          AssertThrow(face_and_whether_open.second,
-                      ExcMessage("A point of " + name + " left the box through the closed wall '" +
-                                 face_and_whether_open.first + "' at (" + number_text(point.location) +
-                                 ") m, t = " + number_text(time) +
+          const auto [face, is_open] = walls.face_crossed(point.location);
+          AssertThrow(is_open,
+                      ExcMessage("A point of " + name + " left the box through the closed wall '" + face + "' at (" +
+                                 number_text(point.location) + ") m, t = " + number_text(time) +
                                  " s. Remedies: a smaller 'Courant number', or 'open' (water: 'drained') in subsection "
                                  "Boundaries."));
           const double mass             = point.properties[layout.mass];
@@ -170,10 +162,11 @@ namespace scree
         }
     };
     for (auto &part : scene.water)
-      if (part.own_points() != nullptr)
-        lose("the water", part.points().lost(), part.layout, *scene.water_walls, totals.lost_water_mass);
-      else
-        lose("the water", part.points().lost(), part.layout, scene.walls, totals.lost_water_mass);
+      lose("the water",
+           part.points().lost(),
+           part.layout,
+           part.own_points() != nullptr ? *scene.water_walls : scene.walls,
+           totals.lost_water_mass);
     for (auto &body : scene.bodies)
       {
         lose(body.name, body.points.lost(), body.layout, scene.walls, totals.lost_mass);

@@ -52,15 +52,6 @@ namespace scree
     /// Whether the case has such a force.
     virtual bool is_set() const = 0;
 
-    /// Throws EntryError if entries are impossible; the force that is set is made to see.
-    virtual void check(const unsigned int dim) const
-    {
-      if (is_set() && dim == 2)
-        make_2d();
-      if (is_set() && dim == 3)
-        make_3d();
-    }
-
     /// The force of a plane scene; throws EntryError if its entries or files are wrong.
     virtual std::unique_ptr<BodyForce<2>> make_2d() const = 0;
 
@@ -105,11 +96,13 @@ namespace scree
         kind->add_parameters(prm);
     }
 
-    /// Throws EntryError if entries of a kind are impossible.
+    /// Throws EntryError if entries of a kind are impossible: makes the forces to see.
     void check(const unsigned int dim) const
     {
-      for (const auto &kind : kinds)
-        kind->check(dim);
+      if (dim == 2)
+        make<2>();
+      else
+        make<3>();
     }
 
     /// Whether the case has a force of any kind.

@@ -35,40 +35,10 @@ namespace scree
       return !inflows.empty() || rain;
     }
 
-    /// What a run that goes on needs of what enters.
-    template <class Archive>
-    void serialize_what_enters(Archive &archive)
-    {
-      for (Inflow<dim> &inflow : inflows)
-        archive &inflow;
-      if (rain)
-        archive &*rain;
-    }
-
     /// Puts in the layers that enter with a step, s, from `time` on, and the drops of rain, and books them. Collective.
     /// @param pressure of the water, for its points that enter; read in scenes with water
     void
     let_in(const double time, const double time_step, const PressureOfCell<dim> &pressure, RunBalance<dim> &totals);
-
-    /// Moves the obstacles to where they are after the step. Collective.
-    void move_obstacles(const double time_step)
-    {
-      for (Obstacle<dim> &obstacle : obstacles)
-        obstacle.end_step(time_step);
-    }
-
-    /// Whether obstacles may move, so that cut_cells have to follow them.
-    bool ground_moves() const
-    {
-      return rigid_ground && rigid_ground->moves();
-    }
-
-    /// Adds the speeds of the obstacles at a time, s.
-    void include_obstacles(Speeds &speeds, const double time) const
-    {
-      for (const Obstacle<dim> &obstacle : obstacles)
-        speeds.include_point(obstacle.velocity_at(time).norm());
-    }
 
     /// Adds the speeds of what enters.
     void include_inflows(Speeds &speeds) const;
@@ -127,12 +97,6 @@ namespace scree
     /// From here on, displacements count.
     void mark_start();
 
-    /// Name of a point in the report of the speed.
-    std::string name_of_a_point() const
-    {
-      return water.empty() ? "point" : "soil or water point";
-    }
-
     const MemoryEstimate expected_memory;                 ///< estimate from the entries
     BackgroundGrid<dim> grid;                             ///< mesh and nodes of the velocity
     BoundaryConditions<dim> walls;                        ///< faces of the box acting on the soil
@@ -154,20 +118,6 @@ namespace scree
     std::unique_ptr<CutCells<dim>> cut_cells;         ///< where these cut the cells; null without both
 
   private:
-    /// Walls do not act where obstacles that move cover them.
-    void uncover_walls()
-    {
-      if (std::none_of(obstacles.begin(), obstacles.end(), [](const auto &obstacle) { return obstacle.is_moving; }))
-        return;
-      std::vector<std::pair<unsigned int, std::uint8_t>> covered;
-      for (const Obstacle<dim> &obstacle : obstacles)
-        if (obstacle.is_moving)
-          obstacle.add_covered_nodes(covered);
-      constraints.cover(covered);
-      if (walls_alone)
-        walls_alone->cover(covered);
-    }
-
     void make_bodies();
     void join_ground();
 
@@ -180,16 +130,8 @@ namespace scree
     /// The soil as steady seepage sees it. Collective.
     SeepageSurvey<dim> seepage_survey() const;
 
-    /// Holds the nodes of rigid bodies, for soil that sticks to them. Collective.
-    void hold_rigid_nodes()
-    {
-      constraints.hold_soil(rigid_nodes());
-      if (walls_alone)
-        walls_alone->reinit();
-    }
-
-    /// What holds the nodes of each group of bodies that stick to each other.
-    std::vector<Constraints<dim> *> constraints_of_groups();
+    /// Holds the nodes on which points of rigid bodies act, for soil that sticks to them. Collective.
+    void hold_rigid_nodes();
 
     /// Fewest and most of all bodies, along an axis; without bodies as many as there are numbers, and 1.
     std::pair<unsigned int, unsigned int> points_per_cell() const;
@@ -233,8 +175,6 @@ namespace scree
                            const unsigned int mass_slot,
                            const Fill &fill,
                            RunBalance<dim> &totals) const;
-    /// What rain enters: the least porosity of the bodies that take water.
-    RainedSoil rained_soil() const;
     /// The soil and water under the rain. Collective.
     typename Rain<dim>::Columns columns_of_rain();
     /// The drops of rain of let_in().
@@ -274,11 +214,6 @@ namespace scree
     /// The bed and the obstacles: what points in contact have slots for, in this order.
     std::vector<RigidSurface<dim>> rigid_surfaces() const;
     void set_initial_state();
-    void require_viscosity(const double stable_step) const;
-
-    /// Whether points of rigid bodies act on the nodes of this rank's cells; empty without such bodies. Collective.
-    std::vector<char> rigid_nodes() const;
-
     const Parameters &parameters;
     WaterParameters water_at_start; // with the surface of steady seepage once it is known
     const ContactGroups groups;

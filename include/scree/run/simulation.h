@@ -213,7 +213,7 @@ namespace scree
     {
       const std::unique_ptr<WaterView<dim>> water = scene.is_fed() ? scheme->water_view() : nullptr;
       scene.let_in(clock.time(), time_step, water ? water->pressure_of_cell : PressureOfCell<dim>(), totals);
-      if (scene.ground_moves())
+      if (scene.rigid_ground && scene.rigid_ground->moves()) // then the cut cells follow it
         {
           const TimedPart part(timer, TimerSection::bed);
           scene.cut_cells->follow();
@@ -239,7 +239,7 @@ namespace scree
     {
       const double n_updates = dealii::Utilities::MPI::sum(point_updates - point_updates_before, communicator);
       progress->conclude(end == End::complete ? "Finished" : "Stopped", clock.time(), n_updates, communicator);
-      progress->summarise(timer, n_updates, scene.name_of_a_point(), communicator);
+      progress->summarise(timer, n_updates, scene.water.empty() ? "point" : "soil or water point", communicator);
       progress->summarise_ranks(
           seconds_of(timer, TimerSection::waiting), partition.imbalance(), partition.n_repartitions(), communicator);
       adaptation.summarise(folder);
@@ -268,7 +268,10 @@ namespace scree
       results.serialize(archive);
       for (Obstacle<dim> &obstacle : scene.obstacles)
         archive &obstacle;
-      scene.serialize_what_enters(archive);
+      for (Inflow<dim> &inflow : scene.inflows)
+        archive &inflow;
+      if (scene.rain)
+        archive &*scene.rain;
       for (PointSet<dim> *points : point_sets())
         archive & points->next_id;
       archive &ground_tractions;

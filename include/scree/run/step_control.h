@@ -49,7 +49,8 @@ namespace scree
     Speeds limiting_speeds() const
     {
       Speeds all = speeds;
-      scene.include_obstacles(all, clock.time());
+      for (const Obstacle<dim> &obstacle : scene.obstacles)
+        all.include_point(obstacle.velocity_at(clock.time()).norm());
       return all;
     }
 
@@ -73,7 +74,10 @@ namespace scree
     }
 
     /// See TimeStepper::part_left().
-    double part_left() const;
+    double part_left() const
+    {
+      return clock.part_left(scene.grid.cell_size(), speeds.wave, speeds.points);
+    }
 
     /// Of all ranks.
     StopReason stop_reason() const

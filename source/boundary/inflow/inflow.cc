@@ -46,35 +46,29 @@ namespace scree
   void Inflow<dim>::find_places(const InflowParameters &parameters, const LevelSet<dim> *ground)
   {
     const Region<dim> region(entry_name(parameters.subsection, "Region"), parameters.region);
-    const double lower = face % 2 == 0 ? section : section - spacing; // of the layer behind the section
-    std::vector<std::pair<std::array<double, dim>, double>> own;
+    const double lower      = face % 2 == 0 ? section : section - spacing; // of the layer behind the section
+    const auto part_of_cube = [&](const Point<dim> &corner, const double width) -> CubePart<dim> {
+      if (std::abs(corner[face / 2] - lower) > 0.5 * spacing)
+        return { 0., 0., corner };
+      const auto [volume, centroid] = region.part_of_cube(corner, width, ground);
+      return { volume, volume, centroid };
+    };
+    std::vector<std::pair<Point<dim>, double>> own; // location and volume
     on_all_ranks(grid.communicator(), [&] {
-      const auto seeds = lattice_seeds<dim>(grid.triangulation(),
-                                            grid.cell_size(),
-                                            { static_cast<unsigned int>(std::lround(grid.cell_size() / spacing)) },
-                                            [&](const Point<dim> &corner, const double width) -> CubePart<dim> {
-                                              if (std::abs(corner[face / 2] - lower) > 0.5 * spacing)
-                                                return { 0., 0., corner };
-                                              const auto [volume, centroid] =
-                                                  region.part_of_cube(corner, width, ground);
-                                              return { volume, volume, centroid };
-                                            });
-      for (const Seed<dim> &seed : seeds)
-        {
-          own.emplace_back(std::array<double, dim>(), seed.volume);
-          std::copy_n(&seed.location[0], dim, own.back().first.begin());
-        }
+      const unsigned int points_per_cell = std::lround(grid.cell_size() / spacing);
+      for (const Seed<dim> &seed :
+           lattice_seeds<dim>(grid.triangulation(), grid.cell_size(), points_per_cell, part_of_cube))
+        own.emplace_back(seed.location, seed.volume);
     });
-    std::vector<std::pair<std::array<double, dim>, double>> all;
     for (const auto &of_rank : Utilities::MPI::all_gather(grid.communicator(), own))
-      all.insert(all.end(), of_rank.begin(), of_rank.end());
-    std::sort(all.begin(), all.end());
-    for (const auto &[location, volume] : all)
+      for (const auto &[location, volume] : of_rank)
+        layer.push_back({ location, volume });
+    std::sort(layer.begin(), layer.end(), [](const Place &a, const Place &b) {
+      return std::lexicographical_compare(&a.location[0], &a.location[0] + dim, &b.location[0], &b.location[0] + dim);
+    });
+    for (const Place &place : layer)
       {
-        Place place{ Point<dim>(), volume };
-        std::copy(location.begin(), location.end(), &place.location[0]);
-        layer.push_back(place);
-        open_area += volume / spacing;
+        open_area += place.volume / spacing;
         cells_of_layer.push_back(grid.fine_cells().box().place_near(place.location));
       }
     require_entry(!layer.empty(),
