@@ -95,12 +95,18 @@ namespace scree
   }
 
 
-  void throw_on_all_ranks(const std::string &fault, const MPI_Comm communicator)
+  std::string first_fault(const std::string &fault, const MPI_Comm communicator)
   {
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
     const unsigned int first   = Utilities::MPI::min(fault.empty() ? n_ranks : rank, communicator);
-    if (first < n_ranks)
-      throw EntryError(Utilities::MPI::broadcast(communicator, fault, first));
+    return first < n_ranks ? Utilities::MPI::broadcast(communicator, fault, first) : "";
+  }
+
+
+  void throw_on_all_ranks(const std::string &fault, const MPI_Comm communicator)
+  {
+    if (const std::string first = first_fault(fault, communicator); !first.empty())
+      throw EntryError(first);
   }
 } // namespace scree

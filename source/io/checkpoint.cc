@@ -195,41 +195,6 @@ namespace scree
     }
 
 
-    /// Takes numbers from a file's content, as append_bytes() put them there.
-    class ByteReader
-    {
-    public:
-      /// @param content of the file; must live on
-      ByteReader(const std::string &file, const std::string &content)
-          : file(file)
-          , next(content.data())
-          , end(content.data() + content.size())
-      {
-      }
-
-      /// Reads the next `n` numbers. Throws FileError if there are fewer.
-      template <typename Value>
-      void take(Value *values, const std::size_t n)
-      {
-        if (n > std::size_t(end - next) / sizeof(Value))
-          throw FileError(file + ": ends too early");
-        std::memcpy(values, next, n * sizeof(Value));
-        next += n * sizeof(Value);
-      }
-
-      std::uint64_t take()
-      {
-        std::uint64_t value;
-        take(&value, 1);
-        return value;
-      }
-
-    private:
-      const std::string file;
-      const char *next, *const end;
-    };
-
-
     /// This rank's points, cell by cell: for each set the numbers of properties and of points; for each cell its id and
     /// the number of its points; for each point its id, location, reference location and properties.
     template <int dim>
@@ -273,23 +238,25 @@ namespace scree
         if (cell->is_locally_owned())
           cells.emplace(cell->id(), cell);
       std::vector<std::uint64_t> n_of_sets(sets.size(), 0);
-      const auto unpack = [&](ByteReader &file, PointSet<dim> &points) {
-        AssertThrow(file.take() == points.stride(), ExcMessage("The points have other properties than the case's."));
-        const std::uint64_t n_points = file.take();
-        std::vector<double> properties(points.stride());
+      const auto unpack = [&](const auto &take, PointSet<dim> &points) {
+        std::uint64_t stride, n_points, n_in_cell, number;
+        take(&stride, 1);
+        AssertThrow(stride == points.stride(), ExcMessage("The points have other properties than the case's."));
+        take(&n_points, 1);
+        std::vector<double> properties(stride);
         for (std::uint64_t n = 0; n < n_points;)
           {
             CellId::binary_type id;
-            file.take(id.data(), id.size());
-            const auto cell               = cells.find(CellId(id));
-            const std::uint64_t n_in_cell = file.take();
+            take(id.data(), id.size());
+            const auto cell = cells.find(CellId(id));
+            take(&n_in_cell, 1);
             for (std::uint64_t p = 0; p < n_in_cell; ++p, ++n)
               {
-                const std::uint64_t number = file.take();
                 Point<dim> location, reference_location;
-                file.take(&location[0], dim);
-                file.take(&reference_location[0], dim);
-                file.take(properties.data(), properties.size());
+                take(&number, 1);
+                take(&location[0], dim);
+                take(&reference_location[0], dim);
+                take(properties.data(), properties.size());
                 if (cell != cells.end())
                   points.handler().insert_particle(location, reference_location, number, cell->second, properties);
               }
@@ -299,10 +266,13 @@ namespace scree
       for (const CheckedFile &file : checkpoint.manifest.files)
         if (file.name.rfind(name_of_points, 0) == 0)
           {
-            const std::string content = read_checked_file(checkpoint.folder, file);
-            ByteReader reader(checkpoint.folder + '/' + file.name, content);
+            std::istringstream content(read_checked_file(checkpoint.folder, file));
+            const auto take = [&](auto *values, const std::size_t n) { // as append_bytes() put them there
+              if (!content.read(reinterpret_cast<char *>(values), n * sizeof(*values)))
+                throw FileError(checkpoint.folder + '/' + file.name + ": ends too early");
+            };
             for (unsigned int s = 0; s < sets.size(); ++s)
-              n_of_sets[s] += unpack(reader, *sets[s]);
+              n_of_sets[s] += unpack(take, *sets[s]);
           }
       return n_of_sets;
     }
@@ -315,10 +285,10 @@ namespace scree
       for (const CheckedFile &file : checkpoint.manifest.files)
         if (file.name.rfind(name_of_mesh, 0) == 0)
           {
-            const std::string content = read_checked_file(checkpoint.folder, file);
-            const std::size_t n = content.size() / sizeof(Blocks::value_type), n_before = blocks.size();
-            blocks.resize(n_before + n);
-            ByteReader(checkpoint.folder + '/' + file.name, content).take(blocks.data() + n_before, n);
+            const std::string content  = read_checked_file(checkpoint.folder, file);
+            const std::size_t n_before = blocks.size();
+            blocks.resize(n_before + content.size() / sizeof(Blocks::value_type));
+            std::memcpy(blocks.data() + n_before, content.data(), (blocks.size() - n_before) * sizeof(blocks[0]));
           }
       make_unique(blocks);
       return blocks;
@@ -420,17 +390,14 @@ namespace scree
     for (const std::string &folder : Utilities::MPI::broadcast(communicator, folders_of(run_folder)))
       {
         Checkpoint checkpoint{ folder, {}, {} };
-        const std::string fault = fault_of([&] {
+        const std::string fault        = fault_of([&] {
           checkpoint.manifest = read_manifest(folder);
           checkpoint.entries  = CaseEntries(read_file(checkpoint, name_of_entries));
           const auto &files   = checkpoint.manifest.files;
           for (unsigned int f = rank; f < files.size(); f += n_ranks)
             read_checked_file(folder, files[f]);
         });
-        std::string fault_of_all; // that of the first rank that has one
-        for (const std::string &other : Utilities::MPI::all_gather(communicator, fault))
-          if (fault_of_all.empty())
-            fault_of_all = other;
+        const std::string fault_of_all = first_fault(fault, communicator);
         if (fault_of_all.empty())
           return checkpoint;
         log("The checkpoint " + folder + " is damaged and not used. " + fault_of_all + '.');

@@ -108,6 +108,9 @@ namespace scree
   /// What an exception of deal.II says, without its banner and in one line.
   std::string plain_text(const dealii::ExceptionBase &error);
 
+  /// The fault of the first rank that has one, on all ranks; empty: none has. Collective.
+  std::string first_fault(const std::string &fault, const MPI_Comm communicator);
+
   /// Throws EntryError on all ranks if any rank has found a `fault` (not empty). Collective.
   void throw_on_all_ranks(const std::string &fault, const MPI_Comm communicator);
 

@@ -2,6 +2,8 @@
 #ifndef scree_io_files_h
 #define scree_io_files_h
 
+#include <scree/input/input_error.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
@@ -203,13 +205,8 @@ namespace scree
     /// Waits for the stage and begins the next one, or ends the job. Collective.
     void end_stage()
     {
-      std::string fault = running.get();
-      if (n_ranks > 1)
-        {
-          const unsigned int rank  = dealii::Utilities::MPI::this_mpi_process(communicator);
-          const unsigned int first = dealii::Utilities::MPI::min(fault.empty() ? n_ranks : rank, communicator);
-          fault = first < n_ranks ? dealii::Utilities::MPI::broadcast(communicator, fault, first) : "";
-        }
+      const std::string own   = running.get();
+      const std::string fault = n_ranks > 1 ? first_fault(own, communicator) : own;
       if (fault.empty() && stage < jobs.front().stages.size())
         begin_stage();
       else
