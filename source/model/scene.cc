@@ -699,14 +699,14 @@ namespace scree
   {
     const auto soil = parameters.soil_regions();
     if (soil.size() > 1)
-      require_apart(soil, points_per_cell().second, grid.triangulation(), grid.cell_size());
+      require_apart<dim>(soil, points_per_cell().second, { grid.triangulation(), grid.cell_size() });
     auto entries = parameters.bodies.begin();
     for (auto &body : bodies)
-      seed(body, (entries++)->seeding, grid.triangulation(), grid.cell_size(), ground.get(), parameters.has_water);
+      seed(body, (entries++)->seeding, { grid.triangulation(), grid.cell_size(), ground.get(), parameters.has_water });
     if (parameters.has_water)
       require_phreatic_surface(parameters.water, bodies, grid);
     for (auto &part : water)
-      seed_water(part, water_at_start, soil, grid.triangulation(), grid.cell_size(), ground_of_water());
+      seed_water(part, water_at_start, soil, { grid.triangulation(), grid.cell_size(), ground_of_water(), true });
     for (const auto &load : loads)
       load.require_soil(bodies, communicator);
     // Points that keep their velocity would give a gradient of the first step to the nodes on top of it.

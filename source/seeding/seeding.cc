@@ -380,10 +380,8 @@ namespace scree
 
 
   template <int dim>
-  void require_apart(const std::vector<SoilRegion> &soil,
-                     const unsigned int points_per_cell,
-                     const Triangulation<dim> &triangulation,
-                     const double cell_size)
+  void
+  require_apart(const std::vector<SoilRegion> &soil, const unsigned int points_per_cell, const Lattice<dim> &lattice)
   {
     std::vector<Region<dim>> regions;
     for (const SoilRegion &body : soil)
@@ -398,14 +396,14 @@ namespace scree
     constexpr double places[3] = { 0.37, 0.41, 0.34 };
     const unsigned int n       = 2 * points_per_cell;
     std::string fault;
-    for (const auto &cell : triangulation.active_cell_iterators())
+    for (const auto &cell : lattice.triangulation.active_cell_iterators())
       for (unsigned int i = 0;
            cell->is_locally_owned() && holds_nodes(cell) && fault.empty() && i < Utilities::fixed_power<dim>(n);
            ++i)
         {
           Point<dim> x = cell->vertex(0);
           for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
-            x[a] += cell_size / n * (rest % n + places[a]);
+            x[a] += lattice.cell_size / n * (rest % n + places[a]);
           const unsigned int first  = body_at(x, 0);
           const unsigned int second = body_at(x, first + 1);
           if (second < regions.size())
@@ -414,7 +412,7 @@ namespace scree
                                       soil[first].entry().second + ": both are true at " + number_text(x) +
                                       " m, and would be filled twice. Leave the place to one of them.");
         }
-    throw_on_all_ranks(fault, communicator_of(triangulation));
+    throw_on_all_ranks(fault, communicator_of(lattice.triangulation));
   }
 
 
@@ -426,17 +424,6 @@ namespace scree
                           "Move the region, the box or the bed."
                         : "the region is empty inside the box of subsection Mesh. Move the region or the box.";
     }
-
-
-    /// Where points are to be.
-    template <int dim>
-    struct Lattice
-    {
-      const Triangulation<dim> &triangulation;
-      const double cell_size;
-      const LevelSet<dim> *ground; // null: none
-      const bool in_water;         // slivers beside the ground stay
-    };
 
 
     /// Fills a phase with points that have mass, volume and velocity. Collective; throws EntryError if the velocity is
@@ -480,26 +467,20 @@ namespace scree
 
 
   template <int dim>
-  void seed(SoilBody<dim> &body,
-            const SeedingParameters &parameters,
-            const Triangulation<dim> &triangulation,
-            const double cell_size,
-            const LevelSet<dim> *ground,
-            const bool in_water)
+  void seed(SoilBody<dim> &body, const SeedingParameters &parameters, const Lattice<dim> &lattice)
   {
     const Region<dim> region(entry_name(body.name, "Region"), parameters.expression(), parameters.map);
     const auto part_of_cube = [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
-      const auto [volume, centroid] = region.part_of_cube(lower, width, ground);
+      const auto [volume, centroid] = region.part_of_cube(lower, width, lattice.ground);
       return { volume, volume, centroid };
     };
-    const Lattice<dim> lattice{ triangulation, cell_size, ground, in_water };
     fill<dim>(body, body.points, body.name, parameters, lattice, part_of_cube, [&](const auto &seeds) {
       double volume = 0;
       for (const Seed<dim> &one : seeds)
         volume += one.volume;
-      require_entry(Utilities::MPI::sum(volume, communicator_of(triangulation)) > 0 || parameters.is_fed,
+      require_entry(Utilities::MPI::sum(volume, communicator_of(lattice.triangulation)) > 0 || parameters.is_fed,
                     { body.name, parameters.place().first, parameters.place().second },
-                    remedy_for_nothing(ground != nullptr));
+                    remedy_for_nothing(lattice.ground != nullptr));
     });
     for_each_point(body.points,
                    [&](const auto &point) { std::fill_n(point.properties + body.layout.left_cauchy_green, 3, 1.); });
@@ -591,43 +572,6 @@ namespace scree
 
 
     template <int dim>
-    void seed_own_points(WaterPhase<dim> &water,
-                         const WaterParameters &parameters,
-                         const std::vector<SoilRegion> &soil,
-                         const Triangulation<dim> &triangulation,
-                         const double cell_size,
-                         const LevelSet<dim> *ground)
-    {
-      const auto parts = water_parts<dim>(parameters, soil);
-      std::vector<double> filled(parts.size(), 0.); // of each part, m^3
-      const auto part_of_cube = [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
-        CubePart<dim> sum{ 0., 0., lower };
-        Tensor<1, dim> moment; // of the water about the lower corner, m^4
-        for (unsigned int i = 0; i < parts.size(); ++i)
-          {
-            const auto [volume, centroid] = parts[i].region.part_of_cube(lower, width, ground);
-            filled[i] += volume;
-            sum.filled += volume;
-            sum.stays |= volume > 0 && parts[i].soil == nullptr;
-            sum.volume += parts[i].porosity * volume;
-            moment += parts[i].porosity * volume * (centroid - lower);
-          }
-        if (sum.volume > 0)
-          sum.location = lower + moment / sum.volume;
-        return sum;
-      };
-      const Lattice<dim> lattice{ triangulation, cell_size, ground, /* in_water */ true };
-      fill<dim>(water, water.points(), "Water", parameters, lattice, part_of_cube, [&](const auto &) {
-        Utilities::MPI::sum(filled, communicator_of(triangulation), filled);
-        require_water(parameters, filled, soil.size(), ground != nullptr);
-        for (unsigned int i = 0; i < parts.size(); ++i)
-          if (parts[i].soil && filled[i] > 0)
-            require_pores(*parts[i].soil);
-      });
-    }
-
-
-    template <int dim>
     void fill_pores(WaterPhase<dim> &water)
     {
       const SoilBody<dim> &soil = *water.carrier();
@@ -646,14 +590,35 @@ namespace scree
   void seed_water(WaterPhase<dim> &water,
                   const WaterParameters &parameters,
                   const std::vector<SoilRegion> &soil,
-                  const Triangulation<dim> &triangulation,
-                  const double cell_size,
-                  const LevelSet<dim> *ground)
+                  const Lattice<dim> &lattice)
   {
     if (water.carrier() != nullptr)
-      fill_pores(water);
-    else
-      seed_own_points(water, parameters, soil, triangulation, cell_size, ground);
+      return fill_pores(water);
+    const auto parts = water_parts<dim>(parameters, soil);
+    std::vector<double> filled(parts.size(), 0.); // of each part, m^3
+    const auto part_of_cube = [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
+      CubePart<dim> sum{ 0., 0., lower };
+      Tensor<1, dim> moment; // of the water about the lower corner, m^4
+      for (unsigned int i = 0; i < parts.size(); ++i)
+        {
+          const auto [volume, centroid] = parts[i].region.part_of_cube(lower, width, lattice.ground);
+          filled[i] += volume;
+          sum.filled += volume;
+          sum.stays |= volume > 0 && parts[i].soil == nullptr;
+          sum.volume += parts[i].porosity * volume;
+          moment += parts[i].porosity * volume * (centroid - lower);
+        }
+      if (sum.volume > 0)
+        sum.location = lower + moment / sum.volume;
+      return sum;
+    };
+    fill<dim>(water, water.points(), "Water", parameters, lattice, part_of_cube, [&](const auto &) {
+      Utilities::MPI::sum(filled, communicator_of(lattice.triangulation), filled);
+      require_water(parameters, filled, soil.size(), lattice.ground != nullptr);
+      for (unsigned int i = 0; i < parts.size(); ++i)
+        if (parts[i].soil && filled[i] > 0)
+          require_pores(*parts[i].soil);
+    });
   }
 
   template decltype(water_parts<2>) water_parts<2>;

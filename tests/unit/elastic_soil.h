@@ -33,7 +33,7 @@ struct ElasticSoil : scree::SoilBody<dim>
     seeding.initial_porosity = porosity;
     seeding.initial_velocity = velocity;
     if (region != "none")
-      scree::seed(*this, seeding, grid.triangulation(), grid.cell_size());
+      scree::seed(*this, seeding, { grid.triangulation(), grid.cell_size() });
   }
 
   static constexpr double grain_density = 2500.;

@@ -111,27 +111,28 @@ namespace scree
     }
   };
 
+  /// Where points may be.
+  template <int dim>
+  struct Lattice
+  {
+    const dealii::Triangulation<dim> &triangulation; ///< with fine cells where points are to be
+    const double cell_size;                          ///< of these, m
+    const LevelSet<dim> *ground = nullptr;           ///< only what is in its open is filled; null: all
+    const bool in_water         = false;             ///< slivers beside the ground stay, see keep_slivers_at()
+  };
+
   /// Throws EntryError, with a place, if two bodies claim the same one; looks at 2 places an axis for each of
   /// `points_per_cell`. Collective.
   template <int dim>
-  void require_apart(const std::vector<SoilRegion> &soil,
-                     const unsigned int points_per_cell,
-                     const dealii::Triangulation<dim> &triangulation,
-                     const double cell_size);
+  void
+  require_apart(const std::vector<SoilRegion> &soil, const unsigned int points_per_cell, const Lattice<dim> &lattice);
 
   /// Fills the body's region with points: a regular lattice of `points_per_cell` an axis; at oblique edges a point
   /// stands at the centroid of the part of its cube that is inside and has its volume, and slivers join their
   /// neighbour. Points get volume, mass and velocity, and are stress-free. Collective; throws EntryError if the region
   /// holds no volume, or an expression is no number at one of the places.
-  /// @param ground only what is in its open is filled; null: all
-  /// @param in_water slivers beside the ground stay, see keep_slivers_at()
   template <int dim>
-  void seed(SoilBody<dim> &body,
-            const SeedingParameters &parameters,
-            const dealii::Triangulation<dim> &triangulation,
-            const double cell_size,
-            const LevelSet<dim> *ground = nullptr,
-            const bool in_water         = false);
+  void seed(SoilBody<dim> &body, const SeedingParameters &parameters, const Lattice<dim> &lattice);
 
   /// Sets the gradient of an initial velocity at the points, 1/s, by differences over a cell: what the nodes see of it.
   ///
@@ -165,14 +166,11 @@ namespace scree
   /// the water itself: porosity times the part of its cube in soil, plus the part outside; its mass is density times
   /// volume. They get the velocity of the entry; pressure is 0. Collective; throws EntryError if the region holds no
   /// volume, or covers a body without pores.
-  /// @param ground only what is in its open is filled; null: all
   template <int dim>
   void seed_water(WaterPhase<dim> &water,
                   const WaterParameters &parameters,
                   const std::vector<SoilRegion> &soil,
-                  const dealii::Triangulation<dim> &triangulation,
-                  const double cell_size,
-                  const LevelSet<dim> *ground = nullptr);
+                  const Lattice<dim> &lattice);
 } // namespace scree
 
 #endif

@@ -165,7 +165,7 @@ void run()
     parameters.region          = region;
     parameters.points_per_cell = 20;
     WaterPhase<2> phase(1000., false, box.grid.triangulation(), box.grid.mapping());
-    seed_water(phase, parameters, {}, box.grid.triangulation(), h);
+    seed_water(phase, parameters, {}, { box.grid.triangulation(), h });
     TransferParameters flip;
     flip.method = "FLIP"; // The points have no room for a gradient.
     const WaterTransfer<2> transfer(box.grid, flip, parameters);

@@ -68,7 +68,7 @@ public:
     parameters.region          = "y < 0.44";
     parameters.points_per_cell = 3;
     seed_water(
-        water, parameters, { { "Soil", "x < 0.33", 0.4, soil.density } }, grid.triangulation(), grid.cell_size());
+        water, parameters, { { "Soil", "x < 0.33", 0.4, soil.density } }, { grid.triangulation(), grid.cell_size() });
     for (PointSet<dim> *points : { &soil.points, &water.points() })
       {
         for_each_point(*points, [&](const auto &point) {

@@ -181,7 +181,7 @@ void test(const std::string &basis)
   parameters.points_per_cell = 3;
   parameters.viscosity       = 2.;
   WaterPhase<dim> water(1000., false, grid.triangulation(), grid.mapping());
-  seed_water(water, parameters, {}, grid.triangulation(), grid.cell_size());
+  seed_water(water, parameters, {}, { grid.triangulation(), grid.cell_size() });
 
   double water_volume = 0;
   for_each_point(water.points(), [&](const auto &point) { water_volume += point.properties[water.layout.volume]; });

@@ -38,7 +38,7 @@ void test(const std::string &name,
   parameters.points_per_cell  = dim == 2 ? 4 : 2;
   parameters.initial_velocity = dim == 2 ? "x; -y" : "x; -y; 3*z";
   WaterPhase<dim> water(parameters.density, false, grid.triangulation(), grid.mapping());
-  seed_water(water, parameters, soil, grid.triangulation(), grid.cell_size());
+  seed_water(water, parameters, soil, { grid.triangulation(), grid.cell_size() });
 
   const auto &layout = water.layout;
   double volume      = 0;
@@ -84,7 +84,7 @@ void test_single_point(const std::vector<double> &upper_corner)
                         dim == 2 ? "x; -y" : "x; -y; 3*z");
 
   WaterPhase<dim> water(1000., is_affine, soil);
-  seed_water(water, WaterParameters(), {}, grid.triangulation(), grid.cell_size());
+  seed_water(water, WaterParameters(), {}, { grid.triangulation(), grid.cell_size() });
   AssertThrow(water.carrier() == &soil && &water.points() == &soil.points && water.layout.velocity == soil_slots &&
                   water.layout.end == soil.layout.n_properties,
               ExcMessage("The water's slots are not behind those of the soil."));

@@ -60,7 +60,7 @@ void test(const Scene<dim> &scene)
   const double spacing       = grid.cell_size() / 4;
 
   WaterPhase<dim> water(water_density, false, grid.triangulation(), grid.mapping());
-  seed_water(water, parameters, scene.soil, grid.triangulation(), grid.cell_size());
+  seed_water(water, parameters, scene.soil, { grid.triangulation(), grid.cell_size() });
   Overburden<dim> water_above(grid, water_layers<dim>(parameters, scene.soil), scene.gravity, spacing);
   set_hydrostatic_pressure(water, water_above);
   double error = 0, largest = 0;

@@ -65,7 +65,7 @@ private:
     scree::SeedingParameters seeding;
     seeding.region          = region;
     seeding.points_per_cell = points_per_cell;
-    scree::seed(bodies.back(), seeding, grid.triangulation(), grid.cell_size());
+    scree::seed(bodies.back(), seeding, { grid.triangulation(), grid.cell_size() });
     return bodies.back();
   }
 };

@@ -69,7 +69,7 @@ struct Soil
     seeding.region           = region;
     seeding.points_per_cell  = 2;
     seeding.initial_porosity = 0.5;
-    seed(body, seeding, grid.triangulation(), grid.cell_size());
+    seed(body, seeding, { grid.triangulation(), grid.cell_size() });
   }
 
   /// Sets the strain of all points to `field` of their place, and averages it.

@@ -295,7 +295,7 @@ double test(const std::string &basis,
       PropertyLayout<dim>(one_by_one->internal_quantities().size(), transfer_parameters.carries_affine_field()),
       grid.triangulation(),
       grid.mapping());
-  seed(body, seeding, grid.triangulation(), grid.cell_size());
+  seed(body, seeding, { grid.triangulation(), grid.cell_size() });
   start(body, random);
 
   NodalField<dim> field(grid);

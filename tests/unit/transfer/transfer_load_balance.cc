@@ -42,7 +42,7 @@ void test(const std::string &basis, const double above)
                                             PropertyLayout<dim>(0, false),
                                             grid.triangulation(),
                                             grid.mapping());
-  seed(body, seeding, grid.triangulation(), grid.cell_size());
+  seed(body, seeding, { grid.triangulation(), grid.cell_size() });
   SurfaceLoadParameters parameters;
   parameters.lower_corner.assign(dim, 0.);
   parameters.upper_corner.assign(dim, 0.8);

@@ -62,7 +62,8 @@ namespace
       water_parameters.region          = "y < 0.44";
       water_parameters.points_per_cell = 3;
       const std::string region         = soil_region == "none" ? "0" : soil_region;
-      seed_water(water, water_parameters, { { "Soil", region, 0.4, 1500. } }, grid.triangulation(), grid.cell_size());
+      seed_water(
+          water, water_parameters, { { "Soil", region, 0.4, 1500. } }, { grid.triangulation(), grid.cell_size() });
       transfer_parameters.method   = method;
       transfer_parameters.pic_rate = 0;
       soil.drag.emplace(water_parameters, 0.4);
