@@ -135,11 +135,18 @@ namespace scree
     }
 
 
-    /// The slivers of a rank and what is around them.
+    /// Seeds that fill less than a quarter of a cube, alone in their cells, join others of the cells around theirs
+    /// (those that share a face, an edge or a corner), but for those that stay. Beside a fuller seed they join the
+    /// nearest one, and take those with them that have no fuller seed but them beside theirs. Elsewhere, as in a sheet
+    /// that is thin everywhere, they gather in the one that fills most of its surroundings. A seed that others join
+    /// moves towards the common centroid, as far as its cell goes, and no nearer to the ground than both were. So
+    /// volume is kept, and a sliver is left only where all that is within a cell of it is one. The same on any number
+    /// of ranks.
     template <int dim>
     class Slivers
     {
     public:
+      /// @param ground null: none
       Slivers(const Triangulation<dim> &triangulation, const LevelSet<dim> *ground, std::vector<Seed<dim>> &seeds)
           : triangulation(triangulation)
           , ground(ground)
@@ -147,19 +154,18 @@ namespace scree
       {
       }
 
-      /// Lets slivers join seeds with at least one of these roles, but for those that have a full one beside them.
-      /// Returns whether any did, on any rank.
-      bool gather()
+      /// Joins all. Collective.
+      void join()
       {
-        find_roles();
-        return join([](const Role own, const Role other) { return own < Role::anchored && other > own; });
-      }
-
-      /// Lets slivers join full seeds.
-      void finish()
-      {
-        find_roles();
-        join([](const Role own, const Role other) { return own == Role::anchored && other == Role::full; });
+        const auto without_full_one = [](const Role own, const Role other) {
+          return own < Role::anchored && other > own;
+        };
+        const auto beside_full_one = [](const Role own, const Role other) {
+          return own == Role::anchored && other == Role::full;
+        };
+        while (join(without_full_one))
+          ;
+        join(beside_full_one);
       }
 
     private:
@@ -223,9 +229,12 @@ namespace scree
         exchange(std::move(own));
       }
 
+      /// Lets slivers join seeds around them if `may(own role, role of the other)`; returns whether any did, on any
+      /// rank.
       template <typename May>
       bool join(const May &may)
       {
+        find_roles();
         joinings.clear();
         for (Seed<dim> &seed : seeds)
           if (may_join(seed))
@@ -301,33 +310,6 @@ namespace scree
       std::map<CellOf<dim>, Joining<dim>> joinings; // by the sliver's cell
     };
   } // namespace
-
-
-  template <int dim>
-  void keep_slivers_at(const LevelSet<dim> *ground, std::vector<Seed<dim>> &seeds)
-  {
-    for (Seed<dim> &seed : seeds)
-      if (ground != nullptr && seed.is_sliver())
-        {
-          const double reach = seed.cell->diameter();
-          seed.stays         = seed.stays || ground->view(seed.location, reach).distance < reach;
-        }
-  }
-
-
-  template <int dim>
-  void join_slivers(const Triangulation<dim> &triangulation, const LevelSet<dim> *ground, std::vector<Seed<dim>> &seeds)
-  {
-    Slivers<dim> slivers(triangulation, ground, seeds);
-    while (slivers.gather())
-      ;
-    slivers.finish();
-  }
-
-  template void keep_slivers_at(const LevelSet<2> *, std::vector<Seed<2>> &);
-  template void keep_slivers_at(const LevelSet<3> *, std::vector<Seed<3>> &);
-  template decltype(join_slivers<2>) join_slivers<2>;
-  template decltype(join_slivers<3>) join_slivers<3>;
 
 
   void SeedingParameters::add_parameters(ParameterHandler &prm)
@@ -451,9 +433,11 @@ namespace scree
           for (unsigned int a = 0; velocity && a < dim; ++a)
             velocity->value(one.location, a);
       });
-      if (lattice.in_water)
-        keep_slivers_at(lattice.ground, seeds);
-      join_slivers(lattice.triangulation, lattice.ground, seeds);
+      if (lattice.in_water && lattice.ground)
+        for (Seed<dim> &one : seeds)
+          if (const double reach = one.cell->diameter(); one.is_sliver())
+            one.stays = one.stays || lattice.ground->view(one.location, reach).distance < reach;
+      Slivers<dim>(lattice.triangulation, lattice.ground, seeds).join();
       require(seeds);
       insert_points<dim>(
           points, seeds, lattice.cell_size, communicator, [&](const Seed<dim> &one, std::vector<double> &properties) {
