@@ -508,7 +508,7 @@ namespace scree
 
   void Parameters::print_subsection(const std::string &path, std::ostream &out)
   {
-    const auto paths    = DeclaredNames(handler).subsection_paths();
+    const auto paths    = subsection_paths(handler);
     const bool is_there = std::find(paths.begin(), paths.end(), path) != paths.end();
     if (!is_there && !case_file.empty() && path.rfind("Soil", 0) != 0)
       try

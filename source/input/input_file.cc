@@ -16,23 +16,44 @@ namespace scree
 
   namespace
   {
-    using Name = DeclaredNames::Name;
-    using Tree = boost::property_tree::ptree;
-
-    /// Adds the names of a subsection and all in it.
-    void collect(const Tree &tree, const std::string &path, std::vector<Name> &entries, std::vector<Name> &subsections)
+    /// An entry or a subsection, which has neither pattern nor documentation.
+    struct Name
     {
-      for (const auto &[name, child] : tree)
-        if (const auto pattern = child.get_optional<std::string>("pattern_description"))
-          entries.push_back({ path, name, *pattern, child.get<std::string>("documentation") });
-        else
-          {
-            subsections.push_back({ path, name, "", "" });
-            collect(child, subsection_path(path, name), entries, subsections);
-          }
-    }
+      std::string path,  // of the subsection in which it stands
+          name,          // of entry or subsection
+          pattern,       // deal.II's description of allowed values
+          documentation; // text of the manual
+    };
 
-    const Name *find(const std::vector<Name> &names, const std::string &path, const std::string &name)
+    /// What a ParameterHandler declares.
+    struct DeclaredNames
+    {
+      std::vector<Name> entries, subsections;
+
+      explicit DeclaredNames(const ParameterHandler &prm)
+      {
+        std::stringstream json;
+        prm.print_parameters(json, ParameterHandler::JSON);
+        boost::property_tree::ptree tree;
+        boost::property_tree::read_json(json, tree);
+        collect(tree, "");
+      }
+
+      /// Adds the names of a subsection and all in it.
+      void collect(const boost::property_tree::ptree &tree, const std::string &path)
+      {
+        for (const auto &[name, child] : tree)
+          if (const auto pattern = child.get_optional<std::string>("pattern_description"))
+            entries.push_back({ path, name, *pattern, child.get<std::string>("documentation") });
+          else
+            {
+              subsections.push_back({ path, name, "", "" });
+              collect(child, subsection_path(path, name));
+            }
+      }
+    };
+
+    const Name *find_name(const std::vector<Name> &names, const std::string &path, const std::string &name)
     {
       const auto found =
           std::find_if(names.begin(), names.end(), [&](const Name &n) { return n.path == path && n.name == name; });
@@ -179,40 +200,30 @@ namespace scree
         }
       return starts_with("[Bool") ? "true or false" : "";
     }
+
+    /// What to write instead of a `value` that does not match the pattern of the entry, and what the entry means.
+    std::string value_remedy(const Name &entry, const std::string &value)
+    {
+      std::string remedy = "write " + pattern_as_words(entry.pattern) + '.';
+      if (entry.pattern.rfind("[Selection ", 0) == 0)
+        {
+          std::vector<Name> choices;
+          for (const auto &choice : selection(entry.pattern))
+            choices.push_back({ "", choice, "", "" });
+          const std::string choice = suggestion(choices, "", value);
+          remedy += (choice.empty() ? "" : " ") + choice;
+        }
+      return remedy + (entry.documentation.empty() ? "" : " Meaning: " + entry.documentation);
+    }
   } // namespace
 
 
-  DeclaredNames::DeclaredNames(const ParameterHandler &prm)
+  std::vector<std::string> subsection_paths(const ParameterHandler &prm)
   {
-    std::stringstream json;
-    prm.print_parameters(json, ParameterHandler::JSON);
-    Tree tree;
-    boost::property_tree::read_json(json, tree);
-    collect(tree, "", entries, subsections);
-  }
-
-
-  const DeclaredNames::Name *DeclaredNames::entry(const std::string &path, const std::string &name) const
-  {
-    return find(entries, path, name);
-  }
-
-
-  bool DeclaredNames::has_subsection(const std::string &path, const std::string &name) const
-  {
-    return find(subsections, path, name) != nullptr;
-  }
-
-
-  std::string DeclaredNames::suggest_entry(const std::string &path, const std::string &written) const
-  {
-    return suggestion(entries, path, written);
-  }
-
-
-  std::string DeclaredNames::suggest_subsection(const std::string &path, const std::string &written) const
-  {
-    return suggestion(subsections, path, written);
+    std::vector<std::string> paths;
+    for (const Name &name : DeclaredNames(prm).subsections)
+      paths.push_back(subsection_path(name.path, name.name));
+    return paths;
   }
 
 
@@ -222,21 +233,6 @@ namespace scree
     for (const std::string &name : names)
       all.push_back({ "", name, "", "" });
     return names_of(closest(all, "", written));
-  }
-
-
-  std::string value_remedy(const DeclaredNames::Name &entry, const std::string &value)
-  {
-    std::string remedy = "write " + pattern_as_words(entry.pattern) + '.';
-    if (entry.pattern.rfind("[Selection ", 0) == 0)
-      {
-        std::vector<Name> choices;
-        for (const auto &choice : selection(entry.pattern))
-          choices.push_back({ "", choice, "", "" });
-        const std::string choice = suggestion(choices, "", value);
-        remedy += (choice.empty() ? "" : " ") + choice;
-      }
-    return remedy + (entry.documentation.empty() ? "" : " Meaning: " + entry.documentation);
   }
 
 
@@ -388,7 +384,7 @@ namespace scree
     const DeclaredNames declared(prm);
     std::vector<NamedFile> result;
     for (Statement &statement : statements)
-      if (const auto *entry = declared.entry(statement.path, statement.name);
+      if (const Name *entry = find_name(declared.entries, statement.path, statement.name);
           statement.kind == Kind::set && entry && is_file_pattern(entry->pattern))
         {
           const auto same = std::find_if(result.begin(), result.end(), [&](const NamedFile &named) {
@@ -423,14 +419,12 @@ namespace scree
   }
 
 
-  std::string
-  InputFile::value(const std::string &subsection, const std::string &entry, const std::string &otherwise) const
+  const InputFile::Statement *InputFile::find(const std::string &subsection, const std::string &entry) const
   {
-    std::string result = otherwise;
-    for (const Statement &statement : statements)
-      if (statement.kind == Kind::set && statement.path == subsection && statement.name == entry)
-        result = statement.value;
-    return result;
+    const auto last = std::find_if(statements.rbegin(), statements.rend(), [&](const Statement &statement) {
+      return statement.kind == Kind::set && statement.path == subsection && statement.name == entry;
+    });
+    return last == statements.rend() ? nullptr : &*last;
   }
 
 
@@ -464,39 +458,33 @@ namespace scree
   {
     const DeclaredNames declared(prm);
     for (const Statement &statement : statements)
-      if (statement.kind == Kind::subsection && !declared.has_subsection(statement.path, statement.name))
+      if (statement.kind == Kind::subsection &&
+          find_name(declared.subsections, statement.path, statement.name) == nullptr)
         {
           const std::string path = subsection_path(statement.path, statement.name);
           std::string remedy     = subsection_remedy ? subsection_remedy(path) : "";
           if (remedy.empty())
-            remedy = declared.suggest_subsection(statement.path, statement.name);
+            remedy = suggestion(declared.subsections, statement.path, statement.name);
           throw statement.error("subsection " + path + ": there is no such subsection. " +
                                 (remedy.empty() ? last_remedy : remedy));
         }
       else if (statement.kind == Kind::set)
-        check_entry(statement, declared, last_remedy, entry_remedy);
-  }
-
-
-  void InputFile::check_entry(const Statement &statement,
-                              const DeclaredNames &declared,
-                              const std::string &last_remedy,
-                              const EntryRemedy &entry_remedy) const
-  {
-    const auto error = [&](const std::string &remedy) {
-      return statement.error(entry_message({ statement.path, statement.name, statement.value }, remedy));
-    };
-    const DeclaredNames::Name *entry = declared.entry(statement.path, statement.name);
-    std::string remedy = entry_remedy ? entry_remedy(statement.path, statement.name, statement.value) : "";
-    if (!entry)
-      {
-        if (remedy.empty())
-          remedy = declared.suggest_entry(statement.path, statement.name);
-        throw error(std::string("there is no such entry") + (statement.path.empty() ? ". " : " here. ") +
-                    (remedy.empty() ? last_remedy : remedy));
-      }
-    if (!Patterns::pattern_factory(entry->pattern)->match(statement.value))
-      throw error(remedy.empty() ? value_remedy(*entry, statement.value) : "there is no such value. " + remedy);
+        {
+          const auto error = [&](const std::string &remedy) {
+            return statement.error(entry_message({ statement.path, statement.name, statement.value }, remedy));
+          };
+          const Name *entry  = find_name(declared.entries, statement.path, statement.name);
+          std::string remedy = entry_remedy ? entry_remedy(statement.path, statement.name, statement.value) : "";
+          if (entry == nullptr)
+            {
+              if (remedy.empty())
+                remedy = suggestion(declared.entries, statement.path, statement.name);
+              throw error(std::string("there is no such entry") + (statement.path.empty() ? ". " : " here. ") +
+                          (remedy.empty() ? last_remedy : remedy));
+            }
+          if (!Patterns::pattern_factory(entry->pattern)->match(statement.value))
+            throw error(remedy.empty() ? value_remedy(*entry, statement.value) : "there is no such value. " + remedy);
+        }
   }
 
 

@@ -239,7 +239,7 @@ namespace scree
     /// Writes the paths of the subsections, one per line: all of them, or those of and below one.
     void print_sections(const std::string &path, std::ostream &out)
     {
-      for (const std::string &one : DeclaredNames(handler).subsection_paths())
+      for (const std::string &one : subsection_paths(handler))
         if (path.empty() || (one + '/').rfind(path + '/', 0) == 0)
           out << one << '\n';
     }

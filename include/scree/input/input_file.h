@@ -9,54 +9,11 @@
 
 namespace scree
 {
-  /// The entries and subsections that a ParameterHandler declares, and which of them a misspelt name may mean.
-  /// A `path` is that of the subsection in which a name stands, such as Soil/Initial state; empty at the top of the
-  /// file.
-  class DeclaredNames
-  {
-  public:
-    /// Of an entry or a subsection; the latter has neither pattern nor documentation.
-    struct Name
-    {
-      std::string path,  ///< of the subsection in which it stands
-          name,          ///< of entry or subsection
-          pattern,       ///< deal.II's description of allowed values
-          documentation; ///< text of the manual
-    };
-
-    /// Collects the names that `prm` declares.
-    explicit DeclaredNames(const dealii::ParameterHandler &prm);
-
-    /// The entry, or nullptr if there is none.
-    const Name *entry(const std::string &path, const std::string &name) const;
-
-    /// Whether `path` has a subsection of this name.
-    bool has_subsection(const std::string &path, const std::string &name) const;
-
-    /// `Did you mean "Cell size"?`, or where an entry of that name stands, or nothing if no name is close.
-    std::string suggest_entry(const std::string &path, const std::string &written) const;
-
-    /// The same for a subsection.
-    std::string suggest_subsection(const std::string &path, const std::string &written) const;
-
-    /// The paths of all subsections, in the order of their names.
-    std::vector<std::string> subsection_paths() const
-    {
-      std::vector<std::string> paths;
-      for (const Name &name : subsections)
-        paths.push_back(subsection_path(name.path, name.name));
-      return paths;
-    }
-
-  private:
-    std::vector<Name> entries, subsections;
-  };
+  /// The paths of all subsections that `prm` declares, such as Soil/Initial state, in the order of their names.
+  std::vector<std::string> subsection_paths(const dealii::ParameterHandler &prm);
 
   /// The names closest to `written`, all of them equally close; none if no name is close.
   std::vector<std::string> nearest(const std::vector<std::string> &names, const std::string &written);
-
-  /// What to write instead of a `value` that does not match the pattern of the entry, and what the entry means.
-  std::string value_remedy(const DeclaredNames::Name &entry, const std::string &value);
 
   /// The statements of a `.prm` file: finds faults before deal.II does, and says where they are and what helps.
   class InputFile
@@ -83,14 +40,16 @@ namespace scree
     std::string statements_text() const;
 
     /// The value of an entry of the subsection, or `otherwise` if the file does not set it.
-    std::string value(const std::string &subsection, const std::string &entry, const std::string &otherwise) const;
+    std::string value(const std::string &subsection, const std::string &entry, const std::string &otherwise) const
+    {
+      const Statement *statement = find(subsection, entry);
+      return statement == nullptr ? otherwise : statement->value;
+    }
 
     /// Whether the file sets the entry of the subsection.
     bool sets(const std::string &subsection, const std::string &entry) const
     {
-      return std::any_of(statements.begin(), statements.end(), [&](const Statement &statement) {
-        return statement.kind == Kind::set && statement.path == subsection && statement.name == entry;
-      });
+      return find(subsection, entry) != nullptr;
     }
 
     /// Whether the file has a subsection of that path.
@@ -157,10 +116,8 @@ namespace scree
     void read_line(const std::string &line, const Statement &place, Open &open);
     void include(const std::string &name, const Statement &place, Open &open);
 
-    void check_entry(const Statement &statement,
-                     const DeclaredNames &declared,
-                     const std::string &last_remedy,
-                     const EntryRemedy &entry_remedy) const;
+    /// The last statement that sets the entry; null if there is none.
+    const Statement *find(const std::string &subsection, const std::string &entry) const;
 
     std::string file_name, whole_text;
     std::vector<Statement> statements;
