@@ -29,14 +29,17 @@ namespace scree
     /// A command line, read.
     struct Arguments
     {
-      Task task = Task::run;          ///< what to do
-      std::string case_file;          ///< to read; of Task::new_case to write; may be empty where the task needs none
-      double accuracy = 0;            ///< of Task::advise, relative error
-      std::string subsection;         ///< of Task::print_parameters; empty: all
-      bool as_json           = false; ///< of Task::print_parameters
-      bool names_of_sections = false; ///< of Task::print_parameters: no more than the names of the subsections
-      std::string scene;              ///< of Task::new_case; empty: the list of scenes is asked for
-      bool overwrite = false;         ///< of Task::new_case
+      Task task = Task::run; ///< what to do
+      std::string case_file; ///< to read; of Task::new_case to write; may be empty where the task needs none
+      std::string name;      ///< subsection of Task::print_parameters, scene of Task::new_case; may be empty
+      double accuracy = default_accuracy;   ///< of Task::advise, relative error
+      std::vector<std::string> options;     ///< names of all of them
+      std::vector<std::string> other_words; ///< that are no options
+
+      bool has(const std::string &option) const
+      {
+        return std::find(options.begin(), options.end(), option) != options.end();
+      }
     };
 
 
@@ -117,48 +120,35 @@ namespace scree
     }
 
 
-    /// Options of a command line, and the words that are none.
-    struct SortedWords
+    /// The options of a command line, and the words that are none; sets the task and the accuracy.
+    Arguments sort_words(const std::vector<std::string> &words)
     {
-      std::vector<Option> options;
-      std::vector<std::string> others;
-
-      bool has(const std::string &name) const
-      {
-        return std::any_of(options.begin(), options.end(), [&](const Option &option) { return option.name == name; });
-      }
-    };
-
-
-    /// Sets the task and the accuracy.
-    SortedWords sort_words(const std::vector<std::string> &words, Arguments &arguments)
-    {
-      SortedWords sorted;
+      Arguments sorted;
       std::string task_option;
       for (std::size_t w = 0; w < words.size(); ++w)
         if (words[w].size() < 2 || words[w][0] != '-')
-          sorted.others.push_back(words[w]);
+          sorted.other_words.push_back(words[w]);
         else
           {
             const Option &option = find_option(words[w]);
-            sorted.options.push_back(option);
+            sorted.options.push_back(option.name);
             if (option.name == "--accuracy")
               {
                 if (++w == words.size())
                   throw fault("after \"--accuracy\", a relative error is missing. Write one, such as 0.05.");
-                arguments.accuracy = accuracy_of(words[w]);
+                sorted.accuracy = accuracy_of(words[w]);
               }
             if (!option.task)
               continue;
-            if (!task_option.empty() && arguments.task != *option.task)
+            if (!task_option.empty() && sorted.task != *option.task)
               throw fault(scree::quoted(task_option) + " and " + quoted(option.name) +
                           " exclude each other. Write one of them.");
-            task_option    = option.name;
-            arguments.task = *option.task;
+            task_option = option.name;
+            sorted.task = *option.task;
           }
-      for (const Option &option : sorted.options)
-        if (!option.belongs_to.empty() && !sorted.has(option.belongs_to))
-          throw fault(quoted(option.name) + " has no effect without " + quoted(option.belongs_to) +
+      for (const std::string &name : sorted.options)
+        if (const Option &option = find_option(name); !option.belongs_to.empty() && !sorted.has(option.belongs_to))
+          throw fault(quoted(name) + " has no effect without " + quoted(option.belongs_to) +
                       ". Remove it, or add that.");
       return sorted;
     }
@@ -172,29 +162,27 @@ namespace scree
 
 
     /// Takes the one case file out of the words.
-    void take_case_file(const std::vector<std::string> &others, Arguments &arguments)
+    void take_case_file(Arguments &arguments)
     {
-      if (others.empty())
+      const std::vector<std::string> &words = arguments.other_words;
+      if (words.empty())
         throw fault("a case file is missing. Write one, such as scree case.prm; scree --new makes one.");
-      if (others.size() > 1)
-        throw fault("there is one case file, " + quoted(others[0]) + ", and then " + quoted(others[1]) + '.' +
-                    (is_case_file(others[1]) ? " Write one case file." : meant(others[1])));
-      arguments.case_file = others[0];
+      if (words.size() > 1)
+        throw fault("there is one case file, " + quoted(words[0]) + ", and then " + quoted(words[1]) + '.' +
+                    (is_case_file(words[1]) ? " Write one case file." : meant(words[1])));
+      arguments.case_file = words[0];
     }
 
 
-    /// The same where a case file may be left out; `what` is the other word.
-    void take_name_and_case_file(const std::vector<std::string> &others,
-                                 const std::string &what,
-                                 std::string &name,
-                                 Arguments &arguments)
+    /// Takes a case file and a name, both of which may be left out; `names` in words.
+    void take_name_and_case_file(const std::string &names, Arguments &arguments)
     {
-      for (const std::string &word : others)
+      for (const std::string &word : arguments.other_words)
         {
-          std::string &place = is_case_file(word) ? arguments.case_file : name;
+          std::string &place = is_case_file(word) ? arguments.case_file : arguments.name;
           if (!place.empty())
             throw fault(scree::quoted(place) + " and " + quoted(word) + " are " +
-                        (is_case_file(word) ? "case files" : what) +
+                        (is_case_file(word) ? "case files" : names) +
                         ". Write one of them; a name with blanks stands between quotes.");
           place = word;
         }
@@ -205,37 +193,33 @@ namespace scree
     /// option, with the closest one, and at words that are missing, too many or without effect.
     Arguments read_arguments(const std::vector<std::string> &words)
     {
-      Arguments arguments;
-      arguments.accuracy          = default_accuracy;
-      const SortedWords sorted    = sort_words(split_values(words), arguments);
-      arguments.as_json           = sorted.has("--json");
-      arguments.names_of_sections = sorted.has("--sections");
-      arguments.overwrite         = sorted.has("--overwrite");
+      Arguments arguments = sort_words(split_values(words));
       switch (arguments.task)
         {
         case Task::run:
         case Task::resume:
         case Task::safety:
         case Task::advise:
-          take_case_file(sorted.others, arguments);
+          take_case_file(arguments);
           break;
         case Task::print_parameters:
-          take_name_and_case_file(sorted.others, "subsections", arguments.subsection, arguments);
-          if (arguments.as_json && !(arguments.subsection.empty() && arguments.case_file.empty()))
+          take_name_and_case_file("subsections", arguments);
+          if (arguments.has("--json") && !(arguments.name.empty() && arguments.case_file.empty()))
             throw fault("\"--json\" prints all entries with their defaults. Remove the subsection and the case file.");
-          if (arguments.as_json && arguments.names_of_sections)
+          if (arguments.has("--json") && arguments.has("--sections"))
             throw fault("\"--json\" and \"--sections\" exclude each other. Write one of them.");
           break;
         case Task::new_case:
-          take_name_and_case_file(sorted.others, "scenes", arguments.scene, arguments);
-          if (arguments.scene.empty() && (!arguments.case_file.empty() || arguments.overwrite))
+          take_name_and_case_file("scenes", arguments);
+          if (arguments.name.empty() && (!arguments.case_file.empty() || arguments.has("--overwrite")))
             throw fault(
                 "after \"--new\", a scene is missing. Write one, such as scree --new slope case.prm; scree --new "
                 "lists them.");
           break;
         default:
-          if (!sorted.others.empty())
-            throw fault(quoted(sorted.options[0].name) + " stands alone. Remove " + quoted(sorted.others[0]) + '.');
+          if (!arguments.other_words.empty())
+            throw fault(quoted(arguments.options[0]) + " stands alone. Remove " + quoted(arguments.other_words[0]) +
+                        '.');
         }
       return arguments;
     }
@@ -408,14 +392,14 @@ namespace scree
     void print_parameters(const Arguments &arguments, std::ostream &out)
     {
       Parameters parameters = arguments.case_file.empty() ? Parameters() : Parameters(arguments.case_file);
-      if (arguments.names_of_sections)
-        parameters.print_sections(arguments.subsection, out);
-      else if (arguments.as_json)
+      if (arguments.has("--sections"))
+        parameters.print_sections(arguments.name, out);
+      else if (arguments.has("--json"))
         parameters.print_json(out);
-      else if (arguments.subsection.empty())
+      else if (arguments.name.empty())
         parameters.print(out);
       else
-        parameters.print_subsection(arguments.subsection, out);
+        parameters.print_subsection(arguments.name, out);
     }
 
 
@@ -444,9 +428,10 @@ namespace scree
           print_parameters(arguments, out);
           return 0;
         case Task::new_case:
-          out << (arguments.scene.empty()
+          out << (arguments.name.empty()
                       ? list_of_scenes()
-                      : write_new_case(arguments.scene, arguments.case_file, arguments.overwrite, communicator));
+                      : write_new_case(
+                            arguments.name, arguments.case_file, arguments.has("--overwrite"), communicator));
           return 0;
         case Task::safety:
           return run_case(arguments, [&](const auto dim, const Parameters &parameters) {
