@@ -73,42 +73,38 @@ namespace scree
     }
 
 
-    /// The rasters of a case in space: what messages call their entries, and the files.
-    std::vector<std::pair<std::string, std::string>> rasters_of(const Parameters &parameters)
+    /// A map of a case in space: what messages call its entry, the file, its coordinate system (empty: none), and how
+    /// it gets another one.
+    struct CaseMap
     {
-      std::vector<std::pair<std::string, std::string>> result;
-      const auto add = [&](const std::string &subsection, const std::string &entry, const std::string &file) {
-        if (!file.empty())
-          result.emplace_back(entry_name(subsection, entry), file);
+      std::string entry, file, system, remedy;
+      bool is_raster;
+    };
+
+
+    /// The rasters, then the outlines.
+    std::vector<CaseMap> maps_of(const Parameters &parameters)
+    {
+      std::vector<CaseMap> result;
+      const auto add_raster = [&](const std::string &subsection, const std::string &entry, const std::string &file) {
+        if (const std::string name = entry_name(subsection, entry); !file.empty())
+          result.push_back(
+              { name, file, read_raster_system(file, name), "convert the raster with gdalwarp -t_srs.", true });
       };
-      add(parameters.bed.subsection, "Raster", parameters.bed.raster());
+      add_raster(parameters.bed.subsection, "Raster", parameters.bed.raster());
       for (const ObstacleParameters &obstacle : parameters.obstacles)
-        add(obstacle.surface.subsection, "Raster", obstacle.surface.raster());
+        add_raster(obstacle.surface.subsection, "Raster", obstacle.surface.raster());
       for (const BodyParameters &body : parameters.bodies)
         {
-          const SourceMapParameters &source = body.seeding.source;
-          add(body.name, "Thickness", source.thickness);
-          add(body.name, "Upper surface", source.upper_surface);
+          add_raster(body.name, "Thickness", body.seeding.source.thickness);
+          add_raster(body.name, "Upper surface", body.seeding.source.upper_surface);
         }
-      return result;
-    }
-
-
-    /// Throws EntryError if an outline has another coordinate system than the maps; without one of theirs it has none.
-    void check_outlines(const Parameters &parameters,
-                        const std::string &system,
-                        const std::string &source,
-                        const dealii::Point<2> &place)
-    {
       for (const BodyParameters &body : parameters.bodies)
-        if (const std::string &file = body.seeding.source.outline; !file.empty())
-          {
-            const std::string entry = entry_name(body.name, "Outline"), of_outline = read_outline_system(file, entry);
-            if (!system.empty() && !of_outline.empty() && !is_same_system(system, of_outline, place))
-              throw EntryError(entry + " = " + file + ": its coordinate system is " + name_of_system(of_outline) +
-                               ", but that of " + source + " is " + name_of_system(system) +
-                               ". All maps of a case must have the same one: convert the outline with ogr2ogr -t_srs.");
-          }
+        if (const std::string name = entry_name(body.name, "Outline"), &file = body.seeding.source.outline;
+            !file.empty())
+          result.push_back(
+              { name, file, read_outline_system(file, name), "convert the outline with ogr2ogr -t_srs.", false });
+      return result;
     }
 
 
@@ -128,19 +124,15 @@ namespace scree
       // A place of the map.
       const dealii::Point<2> place(parameters.local_origin[0] + parameters.grid.lower_corner[0],
                                    parameters.local_origin[1] + parameters.grid.lower_corner[1]);
-      for (const auto &[entry, file] : rasters_of(parameters))
+      for (const CaseMap &map : maps_of(parameters))
         {
-          const std::string of_raster = read_raster_system(file, entry);
-          if (of_raster.empty())
-            continue;
-          if (system.empty())
-            system = of_raster, source = entry + " = " + file;
-          if (!is_same_system(system, of_raster, place))
-            throw EntryError(entry + " = " + file + ": its coordinate system is " + name_of_system(of_raster) +
+          if (system.empty() && map.is_raster && !map.system.empty())
+            system = map.system, source = map.entry + " = " + map.file;
+          if (!system.empty() && !map.system.empty() && !is_same_system(system, map.system, place))
+            throw EntryError(map.entry + " = " + map.file + ": its coordinate system is " + name_of_system(map.system) +
                              ", but that of " + source + " is " + name_of_system(system) +
-                             ". All maps of a case must have the same one: convert the raster with gdalwarp -t_srs.");
+                             ". All maps of a case must have the same one: " + map.remedy);
         }
-      check_outlines(parameters, system, source, place);
       if (parameters.output.maps.write && parameters.output.maps.writes_geo_tiff() && !system.empty())
         require_system_in_metres(system, source + ": its coordinate system is " + name_of_system(system) + ": ");
       return system;
@@ -401,10 +393,8 @@ namespace scree
                   " m; the raster reaches from " + number_text({ box.lower[0], box.lower[1] }) + " to " +
                   number_text({ box.upper[0], box.upper[1] }) + " m, its heights from " + number_text(box.lowest) +
                   " to " + number_text(box.highest) + " m";
-    handler.enter_subsection("Mesh");
-    handler.set("Lower corner", exact_text(box.lower));
-    handler.set("Upper corner", exact_text(upper));
-    handler.leave_subsection();
+    set("Mesh", "Lower corner", exact_text(box.lower));
+    set("Mesh", "Upper corner", exact_text(upper));
   }
 
 

@@ -14,16 +14,6 @@ namespace scree
     /// What a sound run does not exceed, by Check; doc/output.md derives those of volume and stress.
     constexpr double bounds[] = { 1.5, 0.1, 1. / 0.6, 1.5, 2., 0. };
 
-    template <int dim>
-    std::string short_text(const Point<dim> &x)
-    {
-      std::string text = "(";
-      for (unsigned int a = 0; a < dim; ++a)
-        text += (a > 0 ? ", " : "") + formatted("%.6g", x[a]);
-      return text + ") m";
-    }
-
-
     /// Normal stress, Pa, tension positive, on planes with the unit normal `axis`.
     template <int dim>
     double along(const Tensor<1, dim> &axis, const double *stress)
@@ -73,7 +63,7 @@ namespace scree
         unsigned int p = 0;
         for_each_point(cells[c], [&](const auto &point) {
           look(point, [&] {
-            return set + ", point " + std::to_string(points.ids(c)[p]) + " at " + short_text(point.location);
+            return set + ", point " + std::to_string(points.ids(c)[p]) + " at (" + number_text(point.location) + ") m";
           });
           ++p;
         });
@@ -185,7 +175,8 @@ namespace scree
           place = point.location;
         });
         if (const double ratio = volume / volume_at_start; volume_at_start > 0.)
-          suspect(Check::dilation, ratio, ratio, [&] { return body.name + ", cell at " + short_text(place); });
+          suspect(
+              Check::dilation, ratio, ratio, [&] { return body.name + ", cell at (" + number_text(place) + ") m"; });
       }
   }
 

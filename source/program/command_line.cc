@@ -218,8 +218,8 @@ namespace scree
           break;
         default:
           if (!arguments.other_words.empty())
-            throw fault(quoted(arguments.options[0]) + " stands alone. Remove " + quoted(arguments.other_words[0]) +
-                        '.');
+            throw fault(scree::quoted(arguments.options[0]) + " stands alone. Remove " +
+                        scree::quoted(arguments.other_words[0]) + '.');
         }
       return arguments;
     }
