@@ -3,31 +3,23 @@
 // Checkpoints of two sets of points, one of them empty, come back to the last digit. Of two checkpoints, damage to the
 // newer one is named and the older one is read; damage to both is an error. A disk that is full while a checkpoint is
 // written costs no older one.
+#include "../test.h"
 
 #include <scree/input/input_error.h>
 #include <scree/io/checkpoint.h>
 #include <scree/io/files.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <map>
 #include <regex>
 #include <set>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
-#include "../grid_box.h"
-#include "../unit_test.h"
-
 namespace test_checkpoint_faults
 {
-using namespace dealii;
-using namespace scree;
 namespace fs = std::filesystem;
 
 bool is_first()
@@ -269,8 +261,8 @@ std::string fault_of_full_disk(const std::vector<double> &sums, const rlim_t n_b
       fault = without_sizes(error.what());
     }
   const std::string found = outcome<2>("full", sums), wanted = fault.empty() ? "Step 3" : "Step 2";
-  AssertThrow(found == wanted, ExcMessage(found + " instead of " + wanted + " after " + fault));
-  AssertThrow(!fs::exists("full/checkpoint/unfinished"), ExcMessage("Rubbish is left after " + fault));
+  require(found == wanted, found + " instead of " + wanted + " after " + fault);
+  require(!fs::exists("full/checkpoint/unfinished"), "Rubbish is left after " + fault);
   return fault;
 }
 
@@ -289,7 +281,7 @@ void test_full_disk(const std::vector<double> &sums)
           const std::string found = fault_of_full_disk(sums, rank == full_rank ? n_bytes : RLIM_INFINITY);
           const std::string wanted =
               full_rank == 0 || fault.empty() ? fault : file + fault.substr(fault.find(": cannot be written"));
-          AssertThrow(found == wanted, ExcMessage(found + " instead of " + wanted));
+          require(found == wanted, found + " instead of " + wanted);
         }
     }
 }

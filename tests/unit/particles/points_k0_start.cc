@@ -2,21 +2,12 @@
 
 // K0 start: the vertical stress of every point is the weight above it, below an inclined surface and through a second
 // layer; horizontal stresses are K0 times that, shear is none. On one rank and on two.
+#include "../test.h"
 
 #include <scree/run/simulation.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <cmath>
-#include <iostream>
-
-#include "../unit_test.h"
-
 namespace test_points_k0_start
 {
-using namespace dealii;
-using namespace scree;
-
 constexpr double K0 = 0.683, gravity = 9.81;
 
 /// Starts the bodies of Nor-Sand and compares with `weight_above(x)`.
@@ -60,7 +51,7 @@ void test(const std::string &name,
   error = Utilities::MPI::max(error, MPI_COMM_WORLD) / Utilities::MPI::max(largest_weight, MPI_COMM_WORLD);
 
   // Columns are shared by points closer than a hundred thousandth of a cell; surfaces are found to 1e-9 of the height.
-  AssertThrow(error < 1e-5, ExcMessage(name + ": the stress is wrong by " + Utilities::to_string(error)));
+  require(error < 1e-5, name + ": the stress is wrong by " + Utilities::to_string(error));
   std::cout << dim << "D " << name << ": OK, " << Utilities::MPI::max(largest_weight, MPI_COMM_WORLD) << " Pa"
             << std::endl;
 }

@@ -2,23 +2,17 @@
 
 // Points of the lower half of a box cost nine times those of the upper: the ranks' shares of points are even at first,
 // those of cost after a repartition by measured cost. A measurement that was interrupted spoils nothing.
+#include "../test.h"
 
 #include <scree/particles/partition.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/fe/mapping_cartesian.h>
 #include <deal.II/grid/grid_generator.h>
 
-#include <iostream>
 #include <sstream>
-
-#include "../unit_test.h"
 
 namespace test_points_partition
 {
-using namespace dealii;
-using namespace scree;
-
 namespace
 {
   constexpr double cheap = 1e-6, dear = 9e-6; // s

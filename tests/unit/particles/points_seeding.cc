@@ -3,25 +3,11 @@
 // Seeding: a body has the mass of its region, within 0.1 % where its surface is oblique to the lattice and exactly
 // where it is not; no point has less than a quarter of a cube's volume; all points lie where their cell says; 1 and 2
 // ranks make the same points.
+#include "../soil.h"
 
-#include <scree/mesh/background_grid.h>
-#include <scree/materials/table.h>
-#include <scree/seeding/seeding.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <cmath>
-#include <iostream>
-
-#include "../elastic_soil.h"
-#include "../grid_box.h"
-#include "../unit_test.h"
 
 namespace test_points_seeding
 {
-using namespace dealii;
-using namespace scree;
-
 template <int dim>
 struct Body
 {
@@ -54,30 +40,28 @@ void test(const std::string &name,
         ++n;
         const double *properties = point.properties;
         mass += properties[soil.layout.mass];
-        AssertThrow(properties[soil.layout.volume] > 0 &&
-                        std::abs(properties[soil.layout.mass] / properties[soil.layout.volume] / density - 1.) < 1e-14,
-                    ExcMessage("A point's mass is not its volume times the density."));
-        AssertThrow(properties[soil.layout.volume] > 0.2499 * cube, ExcMessage("A sliver stands by itself."));
+        require(properties[soil.layout.volume] > 0 &&
+                    std::abs(properties[soil.layout.mass] / properties[soil.layout.volume] / density - 1.) < 1e-14,
+                "A point's mass is not its volume times the density.");
+        require(properties[soil.layout.volume] > 0.2499 * cube, "A sliver stands by itself.");
         for (unsigned int a = 0; a < dim; ++a)
-          AssertThrow(point.reference_location[a] >= 0. && point.reference_location[a] <= 1. &&
-                          point.location[a] > 0. && point.location[a] < upper_corner[a],
-                      ExcMessage("A point lies outside its cell."));
+          require(point.reference_location[a] >= 0. && point.reference_location[a] <= 1. && point.location[a] > 0. &&
+                      point.location[a] < upper_corner[a],
+                  "A point lies outside its cell.");
       });
-      AssertThrow(n == soil.points.handler().n_locally_owned_particles(), ExcMessage("cells() misses points."));
+      require(n == soil.points.handler().n_locally_owned_particles(), "cells() misses points.");
       mass = Utilities::MPI::sum(mass, MPI_COMM_WORLD);
       n    = Utilities::MPI::sum(n, MPI_COMM_WORLD);
 
       const double error = std::abs(mass / (density * shape.volume) - 1.);
-      AssertThrow(error < shape.tolerance,
-                  ExcMessage(name + ": the mass of '" + shape.region + "' is wrong by " + Utilities::to_string(error)));
+      require(error < shape.tolerance,
+              name + ": the mass of '" + shape.region + "' is wrong by " + Utilities::to_string(error));
       all_mass += mass;
       all_volume += shape.volume;
       std::cout << ' ' << n << " points, mass OK;";
     }
   const double error = std::abs(all_mass / (density * all_volume) - 1.);
-  AssertThrow(error < tolerance,
-              ExcMessage(name + ": the mass of all bodies is wrong by " + Utilities::to_string(error)));
-  std::cout << " all together OK" << std::endl;
+  require(error < tolerance, name + ": the mass of all bodies is wrong by " + Utilities::to_string(error));
 }
 
 

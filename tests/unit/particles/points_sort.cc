@@ -4,30 +4,20 @@
 // whether points stay in their cells, change cells and ranks, fly through several cells or leave the mesh; cells are in
 // order; the own lists are those of the handler, point by point; while few change cells, nothing moves in memory; and
 // neither deal.II's sort nor lifting the points off the mesh changes the order of points in a cell.
-
-#include "../random_numbers.h"
+#include "../test.h"
 
 #include <scree/particles/point_set.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/fe/mapping_cartesian.h>
 #include <deal.II/grid/grid_generator.h>
 
-#include <iostream>
-#include <algorithm>
-#include <limits>
 #include <map>
 #include <sstream>
 #include <tuple>
 
-#include "../unit_test.h"
-
 namespace test_points_sort
 {
-using namespace dealii;
-using namespace scree;
-
 template <int dim>
 void test()
 {
@@ -165,7 +155,7 @@ void test()
   std::cout << dim << "D" << std::endl;
   std::cout << "stay in their cells: ";
   walk(10, 0.001);
-  AssertThrow(n_steps_in_place == 10, ExcMessage("Records moved for nothing."));
+  require(n_steps_in_place == 10, "Records moved for nothing.");
   std::cout << "change cells and ranks: ";
   walk(10, 0.01);
   std::cout << "leave the mesh, too: ";
@@ -186,9 +176,9 @@ void test()
   std::cout << "after a repartition: ";
   walk(10, 0.01);
   // The walks must reach what they are for.
-  AssertThrow(Utilities::MPI::sum(n_cells_of_one_point, MPI_COMM_WORLD) > 0 &&
-                  Utilities::MPI::sum(n_cells_emptied, MPI_COMM_WORLD) > 0,
-              ExcMessage("No cell of one point, or none that emptied"));
+  require(Utilities::MPI::sum(n_cells_of_one_point, MPI_COMM_WORLD) > 0 &&
+              Utilities::MPI::sum(n_cells_emptied, MPI_COMM_WORLD) > 0,
+          "No cell of one point, or none that emptied");
 }
 
 void run()

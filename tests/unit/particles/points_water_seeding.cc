@@ -2,26 +2,13 @@
 
 // Seeding of water: it has the volume of its region outside the soil and of the pores inside, also where the surfaces
 // of water and soil cut the lattice; single-point water fills the pores of its soil; bodies without pores are refused.
+#include "../soil.h"
 
-#include <scree/mesh/background_grid.h>
 #include <scree/input/input_error.h>
-#include <scree/materials/table.h>
-#include <scree/seeding/seeding.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <cmath>
-#include <iostream>
-
-#include "../elastic_soil.h"
-#include "../grid_box.h"
-#include "../unit_test.h"
 
 namespace test_points_water_seeding
 {
-using namespace dealii;
-using namespace scree;
-
 /// Fills the box with water of its own points and compares its volume, m^3.
 template <int dim>
 void test(const std::string &name,
@@ -47,22 +34,18 @@ void test(const std::string &name,
     ++n;
     const double *properties = point.properties;
     volume += properties[layout.volume];
-    AssertThrow(properties[layout.volume] > 0 &&
-                    std::abs(properties[layout.mass] / properties[layout.volume] / 1025. - 1.) < 1e-14,
-                ExcMessage("A point's mass is not its volume times the density."));
-    AssertThrow(properties[layout.velocity] == point.location[0] &&
-                    properties[layout.velocity + 1] == -point.location[1],
-                ExcMessage("A point's velocity is not that of the entry."));
-    AssertThrow(properties[layout.pressure] == 0, ExcMessage("A point has a pressure."));
+    require(properties[layout.volume] > 0 &&
+                std::abs(properties[layout.mass] / properties[layout.volume] / 1025. - 1.) < 1e-14,
+            "A point's mass is not its volume times the density.");
+    require(properties[layout.velocity] == point.location[0] && properties[layout.velocity + 1] == -point.location[1],
+            "A point's velocity is not that of the entry.");
+    require(properties[layout.pressure] == 0, "A point has a pressure.");
     for (unsigned int a = 0; a < dim; ++a)
-      AssertThrow(point.reference_location[a] >= 0. && point.reference_location[a] <= 1.,
-                  ExcMessage("A point lies outside its cell."));
+      require(point.reference_location[a] >= 0. && point.reference_location[a] <= 1., "A point lies outside its cell.");
   });
   volume = Utilities::MPI::sum(volume, MPI_COMM_WORLD);
-  AssertThrow(std::abs(volume / expected - 1.) < tolerance,
-              ExcMessage(name + ": the volume is wrong by " + Utilities::to_string(volume / expected - 1.)));
-  std::cout << dim << "D " << name << ": " << Utilities::MPI::sum(n, MPI_COMM_WORLD) << " points, volume OK"
-            << std::endl;
+  require(std::abs(volume / expected - 1.) < tolerance,
+          name + ": the volume is wrong by " + Utilities::to_string(volume / expected - 1.));
 }
 
 
@@ -85,20 +68,19 @@ void test_single_point(const std::vector<double> &upper_corner)
 
   WaterPhase<dim> water(1000., is_affine, soil);
   seed_water(water, WaterParameters(), {}, grid.triangulation(), grid.cell_size());
-  AssertThrow(water.carrier() == &soil && &water.points() == &soil.points && water.layout.velocity == soil_slots &&
-                  water.layout.end == soil.layout.n_properties,
-              ExcMessage("The water's slots are not behind those of the soil."));
+  require(water.carrier() == &soil && &water.points() == &soil.points && water.layout.velocity == soil_slots &&
+              water.layout.end == soil.layout.n_properties,
+          "The water's slots are not behind those of the soil.");
   for_each_point(water.points(), [&](const auto &point) {
     const double *properties = point.properties;
     const double volume      = properties[water.layout.volume];
-    AssertThrow(std::abs(volume / (porosity * properties[soil.layout.volume]) - 1.) < 1e-13 &&
-                    std::abs(properties[water.layout.mass] / (1000. * volume) - 1.) < 1e-14,
-                ExcMessage("The water does not fill the pores."));
+    require(std::abs(volume / (porosity * properties[soil.layout.volume]) - 1.) < 1e-13 &&
+                std::abs(properties[water.layout.mass] / (1000. * volume) - 1.) < 1e-14,
+            "The water does not fill the pores.");
     for (unsigned int a = 0; a < dim; ++a)
-      AssertThrow(properties[water.layout.velocity + a] == properties[soil.layout.velocity + a],
-                  ExcMessage("The water does not move with the soil."));
+      require(properties[water.layout.velocity + a] == properties[soil.layout.velocity + a],
+              "The water does not move with the soil.");
   });
-  std::cout << dim << "D single-point: OK" << std::endl;
 }
 
 

@@ -3,27 +3,15 @@
 // Start of a wet scene: pressure is the weight of the water above, in the soil and outside; the soil's vertical stress
 // is the weight above less the pressure. Below a level and an inclined bed, with the water table above and inside the
 // soil, in two layers, and with gravity along any axis.
+#include "../soil.h"
 
-#include <scree/mesh/background_grid.h>
 #include <scree/initial/geostatic.h>
-#include <scree/materials/table.h>
-#include <scree/seeding/seeding.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <cmath>
 #include <functional>
-#include <iostream>
 
-#include "../elastic_soil.h"
-#include "../grid_box.h"
-#include "../unit_test.h"
 
 namespace test_points_water_start
 {
-using namespace dealii;
-using namespace scree;
-
 constexpr double g = 9.81, K0 = 0.683, water_density = 1025, grain_density = 2650;
 
 /// Where soil and water are, and what their stress and pressure, Pa, should be at a place.
@@ -46,7 +34,7 @@ void compare(const std::string &name, const double error, const double largest)
 {
   const double relative = Utilities::MPI::max(error, MPI_COMM_WORLD) / Utilities::MPI::max(largest, MPI_COMM_WORLD);
   // Columns are shared by points closer than a hundred thousandth of a cell; surfaces are found to 1e-9 of the height.
-  AssertThrow(relative < 1e-5, ExcMessage(name + " is wrong by " + Utilities::to_string(relative)));
+  require(relative < 1e-5, name + " is wrong by " + Utilities::to_string(relative));
 }
 
 template <int dim>
@@ -70,8 +58,8 @@ void test(const Scene<dim> &scene)
     largest                  = std::max(largest, expected);
     error                    = std::max(error, std::abs(properties[water.layout.pressure] - expected));
     for (unsigned int a = 0; a < dim; ++a)
-      AssertThrow(std::abs(properties[water.layout.pressure_gradient + a] - water_density * scene.gravity[a]) < 1e-10,
-                  ExcMessage("The pressure gradient is not the weight of the water."));
+      require(std::abs(properties[water.layout.pressure_gradient + a] - water_density * scene.gravity[a]) < 1e-10,
+              "The pressure gradient is not the weight of the water.");
   });
   compare<dim>(scene.name + ": the pressure", error, largest);
   std::cout << dim << "D " << scene.name << ": pressure OK, up to " << Utilities::MPI::max(largest, MPI_COMM_WORLD)

@@ -2,31 +2,21 @@
 
 // Grains and pores of unit weights: each pair of entries gives back the soil that it is of, and contradictions are
 // told.
+#include "../test.h"
 
 #include <scree/input/input_error.h>
 #include <scree/seeding/seeding.h>
 
-#include <deal.II/base/exceptions.h>
-
-#include <cmath>
-#include <iostream>
-
-#include "../unit_test.h"
-
 namespace test_unit_weights
 {
-using namespace dealii;
-using namespace scree;
-
 constexpr double g = 9.81, rho_w = 1000, rho_s = 2650, n = 0.4;
 constexpr double dry = (1 - n) * rho_s * g, saturated = dry + n * rho_w * g;
 
 void compare(const std::string &name, const UnitWeights &given)
 {
   const GrainsAndPores found = grains_and_pores("Soil", given, g, rho_w);
-  AssertThrow(std::abs(found.grain_density / rho_s - 1) < 1e-12 && std::abs(found.porosity - n) < 1e-12,
-              ExcMessage(name + ": another soil"));
-  std::cout << name << ": OK" << std::endl;
+  require(std::abs(found.grain_density / rho_s - 1) < 1e-12 && std::abs(found.porosity - n) < 1e-12,
+          name + ": another soil");
 }
 
 void refuse(const std::string &name, const UnitWeights &given, const std::string &word)
@@ -37,11 +27,10 @@ void refuse(const std::string &name, const UnitWeights &given, const std::string
     }
   catch (const EntryError &error)
     {
-      AssertThrow(std::string(error.what()).find(word) != std::string::npos, ExcMessage(error.what()));
-      std::cout << name << ": refused, OK" << std::endl;
+      require(std::string(error.what()).find(word) != std::string::npos, error.what());
       return;
     }
-  AssertThrow(false, ExcMessage(name + ": not refused"));
+  require(false, name + ": not refused");
 }
 
 void run()

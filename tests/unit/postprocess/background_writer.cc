@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Files that are written while a run goes on: the order of stages and jobs, faults of one rank, and the end of a run.
-#include "../unit_test.h"
+#include "../test.h"
 
 #include <scree/io/files.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <future>
-#include <iostream>
 #include <mutex>
 
 namespace test_background_writer
 {
-using namespace scree;
-using namespace dealii;
-
 /// What this rank has done, in its order.
 class Record
 {

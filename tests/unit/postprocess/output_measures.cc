@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // The measures of the statistics on fields made by hand, on one rank and on two.
+#include "../soil.h"
 
-#include "../expect.h"
-#include "soil_scene.h"
 
 #include <scree/postprocess/measures.h>
 #include <scree/tensor/invariants.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <cmath>
-#include <iostream>
-
-#include "../unit_test.h"
-
 namespace test_output_measures
 {
-using namespace dealii;
-using namespace scree;
-
 template <int dim>
 struct Scene : SoilScene<dim>
 {
@@ -94,12 +83,12 @@ void test_percentiles()
                                       0.1 + 0.7 * 0.9,   0.1 + 0.7 * 0.99, 0.8 };
   for (unsigned int i = 0; i < expected.size(); ++i)
     {
-      AssertThrow(std::abs(percentiles[i] - expected[i]) < half_width + 1e-9,
-                  ExcMessage("A percentile is at " + Utilities::to_string(percentiles[i]) + " instead of " +
-                             Utilities::to_string(expected[i])));
+      require(std::abs(percentiles[i] - expected[i]) < half_width + 1e-9,
+              "A percentile is at " + Utilities::to_string(percentiles[i]) + " instead of " +
+                  Utilities::to_string(expected[i]));
       // The percentile is the place of a point: points are in the middle of their lattice, 0.05 m wide.
       const double lattice = (percentiles[i] - 0.1 - half_width) / 0.05;
-      AssertThrow(std::abs(lattice - std::round(lattice)) < 1e-6, ExcMessage("A percentile is not at a point."));
+      require(std::abs(lattice - std::round(lattice)) < 1e-6, "A percentile is not at a point.");
     }
   std::cout << dim << "D percentiles: OK " << percentiles[0] << ' ' << percentiles[1] << ' ' << percentiles[3]
             << std::endl;
@@ -114,11 +103,9 @@ void test_tie()
   for (unsigned int tenths = 1; tenths < 10; ++tenths)
     {
       const double percentile = mass_percentiles(scene.bodies, scene.grid, { 0.1 * tenths })[0];
-      AssertThrow(std::abs(percentile - (0.05 * tenths - 0.025)) < 1e-9,
-                  ExcMessage("The tie at " + Utilities::to_string(0.1 * tenths) + " went to " +
-                             Utilities::to_string(percentile)));
+      require(std::abs(percentile - (0.05 * tenths - 0.025)) < 1e-9,
+              "The tie at " + Utilities::to_string(0.1 * tenths) + " went to " + Utilities::to_string(percentile));
     }
-  std::cout << " OK" << std::endl;
 }
 
 template <int dim>
@@ -135,7 +122,7 @@ void test_oscillation()
   };
   scene.set_pressure(linear);
   const double none = stress_oscillation(scene.bodies, scene.grid);
-  AssertThrow(none < 1e-10, ExcMessage("A linear pressure oscillates by " + Utilities::to_string(none)));
+  require(none < 1e-10, "A linear pressure oscillates by " + Utilities::to_string(none));
 
   // Neighbouring points of a full block take turns between 0 and 2: the fit is 1, the residual 1, and so is the mean.
   Scene<dim> block({ "x > -0.1 && y < 0.5" });
@@ -146,7 +133,7 @@ void test_oscillation()
     return 1. + (sum % 2 ? 1. : -1.);
   });
   const double points = stress_oscillation(block.bodies, block.grid);
-  AssertThrow(std::abs(points - 1.) < 0.05, ExcMessage("Turns of points oscillate by " + Utilities::to_string(points)));
+  require(std::abs(points - 1.) < 0.05, "Turns of points oscillate by " + Utilities::to_string(points));
 
   // Neighbouring cells take turns: of 3^dim cells one more has the sign of the one in the middle.
   block.set_pressure([](const Point<dim> &x) {
@@ -156,10 +143,10 @@ void test_oscillation()
     return 1. + (sum % 2 ? 1. : -1.);
   });
   const double cells = stress_oscillation(block.bodies, block.grid);
-  AssertThrow(std::abs(cells - 1.) < 0.15, ExcMessage("Turns of cells oscillate by " + Utilities::to_string(cells)));
+  require(std::abs(cells - 1.) < 0.15, "Turns of cells oscillate by " + Utilities::to_string(cells));
 
   block.set_pressure([](const Point<dim> &) { return 0.; });
-  AssertThrow(stress_oscillation(block.bodies, block.grid) == 0., ExcMessage("Soil without stress oscillates."));
+  require(stress_oscillation(block.bodies, block.grid) == 0., "Soil without stress oscillates.");
   std::cout << dim << "D oscillation: linear 0 OK, turns of points " << points << ", of cells " << cells << std::endl;
 }
 
@@ -168,9 +155,8 @@ void test_invariants()
 {
   // Uniaxial compression by 3 and a pure shear: q^2 = 3^2 + 3 * 4^2 (von Mises).
   const double stress[6] = { -3, 0, 0, 4, 0, 0 };
-  AssertThrow(std::abs(mean_effective_stress(stress) - 1.) < 1e-15, ExcMessage("P is wrong."));
-  AssertThrow(std::abs(deviatoric_stress<dim>(stress) - std::sqrt(57.)) < 1e-14, ExcMessage("q is wrong."));
-  std::cout << dim << "D invariants: OK" << std::endl;
+  require(std::abs(mean_effective_stress(stress) - 1.) < 1e-15, "P is wrong.");
+  require(std::abs(deviatoric_stress<dim>(stress) - std::sqrt(57.)) < 1e-14, "q is wrong.");
 }
 
 /// Soil in 0 < x < 0.4, which is all grains, and water that reaches from its middle to x = 0.6.
@@ -225,7 +211,6 @@ void test_pressure_oscillation()
   expect(pressure_oscillation(scene.water, scene.grid), 1., 1e-10, "oscillation of a checkerboard");
   expect(stress_oscillation(scene.bodies, scene.grid), 0., 0., "oscillation of no soil");
   expect(mass_percentiles(scene.bodies, scene.grid, { 0.9 })[0], -0.3, 1e-9, "front of no soil");
-  std::cout << dim << "D oscillation of p: OK" << std::endl;
 }
 
 /// Soil at 2 m/s that carries water at 3 m/s, single-point.
@@ -251,7 +236,6 @@ void test_carried_water()
   expect(sums.momentum[0], (1000. * 2. + 500. * 3.) * volume, 1e-8, "momentum of soil and water");
   expect(sums.kinetic, 0.5 * (1000. * 4. + 500. * 9.) * volume, 1e-8, "kinetic energy of soil and water");
   expect(sums.largest_porosity, 0.5, 1e-12, "porosity");
-  std::cout << dim << "D carried water: OK" << std::endl;
 }
 
 

@@ -2,26 +2,16 @@
 
 // Values at places, columns above the ground, the front and the lasting numbers of points, of fields made by hand, on
 // one rank and on two.
+#include "../soil.h"
 
-#include "../expect.h"
-#include "soil_scene.h"
 
 #include <scree/postprocess/measures.h>
 #include <scree/postprocess/probes.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <cmath>
-#include <iostream>
 #include <set>
-
-#include "../unit_test.h"
 
 namespace test_output_probes
 {
-using namespace dealii;
-using namespace scree;
-
 /// A block of soil in a box from -0.3 m to 0.9 m with cells of 0.1 m, full of water.
 template <int dim>
 struct Block : SoilScene<dim>
@@ -81,8 +71,7 @@ void test_places()
       expect(water[i].back(), 7., 1e-10, "velocity of the water");
     }
   for (unsigned int i = 4; i < 6; ++i)
-    AssertThrow(std::isnan(soil[i][0]) && std::isnan(water[i].back()), ExcMessage("There is no material."));
-  std::cout << dim << "D places: OK" << std::endl;
+    require(std::isnan(soil[i][0]) && std::isnan(water[i].back()), "There is no material.");
 }
 
 
@@ -104,14 +93,13 @@ void test_columns()
           expect(columns[i].thickness, 0.6, 1e-9, "thickness");
         }
       expect(columns[2].thickness, 0., 0., "thickness beside the block");
-      AssertThrow(std::isnan(columns[2].height), ExcMessage("There is no surface."));
+      require(std::isnan(columns[2].height), "There is no surface.");
 
       const auto [rear, front] = rear_and_front(lumps, 0.3, block.grid);
       expect(rear, -0.3, 1e-12, "rear");
       expect(front, 0.5, 1e-9, "front: half the thickness between the last column's centre and the next one's");
-      AssertThrow(std::isnan(rear_and_front(lumps, 0.7, block.grid).second), ExcMessage("It is nowhere as thick."));
+      require(std::isnan(rear_and_front(lumps, 0.7, block.grid).second), "It is nowhere as thick.");
     }
-  std::cout << dim << "D columns: OK" << std::endl;
 }
 
 
@@ -124,7 +112,6 @@ void test_wedge()
   expect(column.thickness, 0.3, 0.005, "thickness");
   expect(column.height, 0., 0.025, "height");
   expect(rear_and_front(lumps, 0.2, block.grid).second, 0.5, 0.01, "front");
-  std::cout << "wedge: OK" << std::endl;
 }
 
 
@@ -150,7 +137,7 @@ void test_ids()
     std::set<long> numbers;
     for (const double key : all)
       numbers.insert(std::lround(std::floor(key + 0.5)));
-    AssertThrow(numbers.size() == all.size(), ExcMessage("Two points have one number."));
+    require(numbers.size() == all.size(), "Two points have one number.");
     return all;
   };
   for_each_point(points, [&](const auto &point) { point.properties[slot] = point.location[0]; });
@@ -163,8 +150,7 @@ void test_ids()
       });
       step % 3 == 2 ? points.sort() : points.hand_over();
     }
-  AssertThrow(check() == before, ExcMessage("Points have exchanged their numbers."));
-  std::cout << dim << "D numbers: OK" << std::endl;
+  require(check() == before, "Points have exchanged their numbers.");
 }
 
 

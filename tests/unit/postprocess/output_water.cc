@@ -2,30 +2,20 @@
 
 // Pictures and statistics of soil and water, on one rank and on two: which columns there are, and fields that move
 // with known velocities.
+#include "../soil.h"
 
-#include "../expect.h"
-#include "soil_scene.h"
 
 #include <scree/io/run_folder.h>
 #include <scree/postprocess/graphics.h>
 #include <scree/postprocess/statistics.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <set>
 #include <sstream>
 
-#include "../unit_test.h"
-
 namespace test_output_water
 {
-using namespace dealii;
-using namespace scree;
-
 /// Soil on the left that carries water at p = 100 Pa, single-point; 8 x 8 (x 8) cells.
 template <int dim>
 struct Scene : SoilScene<dim>
@@ -86,14 +76,13 @@ void test_interpolation()
           corners[v] = pressure(GeometryInfo<dim>::unit_cell_vertex(v));
         expect(pressure_at<dim>(x, corners), pressure(x), 1e-12, "bilinear pressure");
       }
-  std::cout << dim << "D interpolation: OK" << std::endl;
 }
 
 /// Prints the names of the arrays of a `.pvtu` file.
 void print_arrays(const std::string &file)
 {
   std::ifstream in(file);
-  AssertThrow(in, ExcMessage("There is no file " + file));
+  require(in, "There is no file " + file);
   std::string line;
   while (std::getline(in, line))
     if (const auto begin = line.find("Name=\""); begin != std::string::npos)
@@ -129,8 +118,7 @@ void test_graphics()
       std::cout << dim << "D " << file << ':';
       print_arrays(folder + "/solution/" + file + ".pvtu");
     }
-  AssertThrow(!std::filesystem::exists(folder + "/solution/water_00002.pvtu"),
-              ExcMessage("A dry picture wrote water."));
+  require(!std::filesystem::exists(folder + "/solution/water_00002.pvtu"), "A dry picture wrote water.");
 }
 
 /// A load has a column from the first row on, also if it starts to work later. Prints the lines of the last row that
@@ -170,12 +158,12 @@ void test_statistics(std::set<std::string> &said)
   Statistics<dim> dry_statistics(scene.grid, gravity, {}), water_statistics(scene.grid, gravity, {});
   dry_statistics.collect(scene.bodies, {}, RunBalance<dim>(), 0., 0, 0., UpdateReport());
   dry_statistics.print_last_row(dry);
-  AssertThrow(dry.str().find("ater") == std::string::npos && dry.str().find("Load") == std::string::npos,
-              ExcMessage("A dry scene has columns of water."));
+  require(dry.str().find("ater") == std::string::npos && dry.str().find("Load") == std::string::npos,
+          "A dry scene has columns of water.");
   water_statistics.collect({}, {}, RunBalance<dim>(), 0., 0, 0., UpdateReport());
   water_statistics.print_last_row(empty);
-  AssertThrow(empty.str().find("nan") == std::string::npos && empty.str().find("inf") == std::string::npos,
-              ExcMessage("Nothing divides by zero."));
+  require(empty.str().find("nan") == std::string::npos && empty.str().find("inf") == std::string::npos,
+          "Nothing divides by zero.");
 
   std::istringstream in(first ? file : "");
   std::string line;

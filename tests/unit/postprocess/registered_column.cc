@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Columns of one file: registered here, they are the last ones of each row of the statistics, in order of their names.
-#include "../grid_box.h"
-#include "../unit_test.h"
+#include "../test.h"
 
 #include <scree/io/run_folder.h>
 #include <scree/postprocess/statistics.h>
 
-#include <iostream>
 #include <sstream>
 
 namespace test_registered_column
 {
-using namespace dealii;
-using namespace scree;
-
 bool is_asked = false; // other tests of this program print all columns
 
 const auto exists = [](const auto &) { return is_asked; };

@@ -2,19 +2,13 @@
 
 // The numbers of an advice that follow from those of a scene: groups against hand calculation, regimes over the
 // conductivity, cell sizes that divide the box, steps as the clock takes them, cost in proportion.
+#include "../test.h"
 
 #include <scree/advice/advise.h>
 #include <scree/advice/scene_numbers.h>
 
-#include <cmath>
-#include <iostream>
-
-#include "../unit_test.h"
-
 namespace test_advice_groups
 {
-using namespace scree;
-
 /// prm/consolidation/terzaghi.prm: c_v = 0.11326 m^2/s, drainage time 8.829 s, T_v = 1 at the end.
 SceneNumbers terzaghi()
 {

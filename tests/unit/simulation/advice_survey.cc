@@ -2,22 +2,14 @@
 
 // What an advice finds in the points of a case: sizes, counts, stiffness and fall of the centre of mass, against hand
 // calculation; the same on 1 and 2 ranks.
+#include "../test.h"
 
 #include <scree/materials/laws/linear_elastic.h>
 #include <scree/advice/advise.h>
 #include <scree/advice/scene_numbers.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <iostream>
-
-#include "../unit_test.h"
-
 namespace test_advice_survey
 {
-using namespace dealii;
-using namespace scree;
-
 template <int dim>
 void make_block(Parameters &parameters)
 {
@@ -57,8 +49,8 @@ void tell(Parameters &parameters, const std::string &name)
             << scene.density() / 1000 << ", M / 1e6 " << scene.constrained_modulus() / 1e6 << ", c / 10 "
             << scene.fastest.speed() / 10 << ", elastic " << scene.is_elastic << ", points of all sets "
             << seen.n_points << '\n';
-  AssertThrow(seen.first.seconds > 0 && parts > 0 && parts < 1.05 * seen.first.seconds && seen.memory > 1e7,
-              ExcMessage("A step's cost is not that of its parts."));
+  require(seen.first.seconds > 0 && parts > 0 && parts < 1.05 * seen.first.seconds && seen.memory > 1e7,
+          "A step's cost is not that of its parts.");
 }
 
 template <int dim>

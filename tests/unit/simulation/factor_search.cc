@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // The search of a factor of safety, and the judgement of a trial from displacement and speed over time.
+#include "../test.h"
 
 #include <scree/input/input_error.h>
 #include <scree/run/safety.h>
 
-#include <cmath>
-#include <iostream>
-
-#include "../unit_test.h"
-
 namespace test_factor_search
 {
-using namespace scree;
-
 std::string text_of(const TrialEnd end)
 {
   return end == TrialEnd::rests ? "rests" : end == TrialEnd::fails ? "fails" : "undecided";

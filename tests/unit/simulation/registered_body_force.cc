@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A body force of one file: registered here, its entries are declared with the others, and it acts on the nodes.
-#include "../unit_test.h"
+#include "../test.h"
 
 #include <scree/boundary/body_forces.h>
 
-#include <iostream>
-
 namespace test_registered_body_force
 {
-using namespace dealii;
-using namespace scree;
-
 /// A centrifuge that turns about the origin: rate^2 x.
 template <int dim>
 class Centrifuge : public BodyForce<dim>

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Speeds that limit a step: the largest, and a point whose speed is not a number is told in whatever order it comes.
+#include "../test.h"
+
 #include <scree/step/step_report.h>
-
-#include <iostream>
-#include <limits>
-#include <vector>
-
-#include "../unit_test.h"
 
 namespace test_step_speeds
 {
-using namespace scree;
-
 void run()
 {
   const double no_number = std::numeric_limits<double>::quiet_NaN();
