@@ -17,7 +17,8 @@ void test_energy(const double exponent, RandomNumbers &random)
   const PressureElasticity law(80e6, 0.2, exponent, 1e5);
   for (unsigned int i = 0; i < 1000; ++i)
     {
-      const double p = random.log_uniform(1e3, 1e6), eta = random.uniform(0., 1.), h = 1e-3 * p / 80e6;
+      const double p = random.log_uniform(1e3, 1e6), eta = random.uniform(0., 1.),
+                   h = 1e-3 * p / (80e6 * std::pow(p / 1e5, exponent));
       double volume, shear;
       law.strain_of(std::log(p), p, eta, volume, shear);
       const double X = law.opening(volume), found = 3. * law.g * shear / X;

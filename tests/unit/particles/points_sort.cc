@@ -4,6 +4,7 @@
 // whether points stay in their cells, change cells and ranks, fly through several cells or leave the mesh; cells are in
 // order; the own lists are those of the handler, point by point; while few change cells, nothing moves in memory; and
 // neither deal.II's sort nor lifting the points off the mesh changes the order of points in a cell.
+// Runs with mpirun=1,2,3.
 #include "../test.h"
 
 #include <scree/particles/point_set.h>
@@ -13,7 +14,6 @@
 #include <deal.II/grid/grid_generator.h>
 
 #include <map>
-#include <sstream>
 #include <tuple>
 
 namespace test_points_sort
@@ -147,37 +147,33 @@ void test()
             compare_lists();
           }
       }
-    std::cout << Utilities::MPI::sum(n_differences, MPI_COMM_WORLD) << " differences, "
-              << points.handler().n_global_particles() << " points, "
-              << Utilities::MPI::sum(points.lost().size(), MPI_COMM_WORLD) << " lost" << std::endl;
+    expect(sum_of_ranks(n_differences), 0, 0, "differences after steps of up to " + std::to_string(most) + " m");
   };
 
-  std::cout << dim << "D" << std::endl;
-  std::cout << "stay in their cells: ";
-  walk(10, 0.001);
+  const unsigned int n_points = points.handler().n_global_particles();
+  walk(10, 0.001); // They stay in their cells, ...
   require(n_steps_in_place == 10, "Records moved for nothing.");
-  std::cout << "change cells and ranks: ";
-  walk(10, 0.01);
-  std::cout << "leave the mesh, too: ";
-  walk(10, 0.04);
-  std::cout << "fly through several cells: ";
-  walk(3, 0.25);
+  expect(points.handler().n_global_particles(), n_points, 0, "points that do not leave");
+  walk(10, 0.01); // change cells and ranks,
+  walk(10, 0.04); // leave the mesh, too,
+  walk(3, 0.25);  // fly through several cells.
+  require(sum_of_ranks(points.lost().size()) > n_points / 2, "Hardly any points left the mesh.");
 
   // Points that were taken out and put back lie in memory as they came.
-  points.handler().prepare_for_coarsening_and_refinement();
-  peer.handler().prepare_for_coarsening_and_refinement();
+  for (PointSet<dim> *set : { &points, &peer })
+    set->handler().prepare_for_coarsening_and_refinement();
   mesh.repartition();
-  points.handler().unpack_after_coarsening_and_refinement();
-  peer.handler().unpack_after_coarsening_and_refinement();
-  points.sort();
-  peer.sort();
+  for (PointSet<dim> *set : { &points, &peer })
+    {
+      set->handler().unpack_after_coarsening_and_refinement();
+      set->sort();
+    }
   compare();
   n_points_before.assign(mesh.n_active_cells(), 0);
-  std::cout << "after a repartition: ";
   walk(10, 0.01);
   // The walks must reach what they are for.
-  require(Utilities::MPI::sum(n_cells_of_one_point, MPI_COMM_WORLD) > 0 &&
-              Utilities::MPI::sum(n_cells_emptied, MPI_COMM_WORLD) > 0,
+  require(sum_of_ranks(n_cells_of_one_point) > 0 && sum_of_ranks(n_cells_emptied) > 0 &&
+              points.handler().n_global_particles() > 0,
           "No cell of one point, or none that emptied");
 }
 
