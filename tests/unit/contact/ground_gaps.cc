@@ -3,7 +3,6 @@
 // Oblique ground in a wet scene and a point in each of its cells: how fast what is at a facet may approach it in a
 // step, by the distance of the point from the facet; that slow motion and touching points may not; in cells without a
 // point a cell's width counts.
-// Runs with mpirun=1,2.
 #include "../test.h"
 
 #include "../scattered_mixture.h"
@@ -67,3 +66,5 @@ void run()
 
 const UnitTest registered("ground_gaps", run);
 } // namespace test_ground_gaps
+
+// Runs with mpirun=1,2.

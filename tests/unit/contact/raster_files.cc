@@ -37,7 +37,8 @@ void expect_raster(const std::string &file, const Raster &raster)
     if (std::isnan(raster.values[i]))
       require(std::isnan(found.values[i]), file + ": a value that is missing");
     else
-      expect(found.values[i], raster.values[i], 1e-15 * std::abs(raster.values[i]), file + ": value " + std::to_string(i));
+      expect(
+          found.values[i], raster.values[i], 1e-15 * std::abs(raster.values[i]), file + ": value " + std::to_string(i));
   require(raster.system.empty() || is_same_system(found.system, raster.system, { raster.x, raster.y }),
           file + ": another system");
 }

@@ -3,7 +3,6 @@
 // Walls of a wet scene and what falls on them: which walls act where a point has reached one, two or no wall; that they
 // act on what is slow; the speed at which a gap closes within a step; a full cell has no gap; a gate holds whatever is
 // near; afterwards all walls act again; points just outside come back, through closed faces only.
-// Runs with mpirun=1,2.
 #include "../test.h"
 
 #include <scree/seeding/seeding.h>
@@ -187,3 +186,5 @@ void run()
 
 const UnitTest registered("wall_gaps", run);
 } // namespace test_wall_gaps
+
+// Runs with mpirun=1,2.

@@ -3,7 +3,6 @@
 // The background grid's shape functions: constants and linear fields are reproduced to rounding, a random field has no
 // jump across a face (splines: nor has its gradient), nodes are as many as the tensor product of the one-dimensional
 // bases has, and those on a wall say so.
-// Runs with mpirun=1,2.
 #include "../test.h"
 
 #include <map>
@@ -104,7 +103,7 @@ std::pair<double, double> jumps(const BackgroundGrid<dim> &grid)
       for (unsigned int a = 1; a <= dim; ++a)
         result.second = std::max(result.second, std::abs(sides[0][a] - sides[1][a]));
     }
-  return result;
+  return { max_of_ranks(result.first), max_of_ranks(result.second) };
 }
 
 /// Throws unless the nodes that lie on a wall are those that say so, and each wall has as many as it should.
@@ -177,3 +176,5 @@ void run()
 
 const UnitTest registered("grid_basis", run);
 } // namespace test_grid_basis
+
+// Runs with mpirun=1,2.

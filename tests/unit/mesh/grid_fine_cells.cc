@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Fine cells around two cubes in boxes of several sizes, none a multiple of the coarse cells: as many cells and nodes
 // in each, whose linear functions are exact; and the same after the cubes have moved away and come back.
-// Runs with mpirun=1,2.
 #include "../test.h"
 
 namespace test_grid_fine_cells
@@ -116,3 +115,5 @@ void run()
 
 const UnitTest registered("grid_fine_cells", run);
 } // namespace test_grid_fine_cells
+
+// Runs with mpirun=1,2.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Blocks in which points are put, in boxes that are too large to look at each cell closely: none of those that a close
 // look at all cells around the regions finds is missed, of a ball with a tail thinner than a cell and of a thin layer.
-// Runs with mpirun=1,2.
 #include "../test.h"
 
 #include <scree/mesh/fine_cells.h>
@@ -74,3 +73,5 @@ void run()
 
 const UnitTest registered("grid_occupied_blocks", run);
 } // namespace test_grid_occupied_blocks
+
+// Runs with mpirun=1,2.

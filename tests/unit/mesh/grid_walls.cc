@@ -2,7 +2,6 @@
 
 // Walls: what each does to the velocity of a node, of soil and of water; walls oblique to the axes and Coulomb's law; a
 // gate; a block that slides on friction; points that leave.
-// Runs with mpirun=1,2.
 #include "../test.h"
 
 #include <scree/materials/laws/linear_elastic.h>
@@ -285,3 +284,5 @@ void run()
 
 const UnitTest registered("grid_walls", run);
 } // namespace test_grid_walls
+
+// Runs with mpirun=1,2.

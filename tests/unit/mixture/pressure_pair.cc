@@ -3,7 +3,7 @@
 // Divergence and force of the pressure, for scattered points of soil and water whose surface lies
 // inside cells, for every basis: they are transposes; uniform flow and motion as a rigid body have no divergence;
 // forces add up to 0; the filled part is a half plane's where the depth is linear; the matrix is symmetric and does not
-// gain: p.(B v) <= 0 after the correction by its solution. Runs with mpirun=1,2.
+// gain: p.(B v) <= 0 after the correction by its solution.
 #include "../soil.h"
 
 
@@ -314,3 +314,5 @@ void run()
 
 const UnitTest registered("pressure_pair", run);
 } // namespace test_pressure_pair
+
+// Runs with mpirun=1,2.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The viscous force on the nodes, for every basis, of water that fills a part of the box with oblique edges: it is
 // symmetric, takes energy, adds up to nothing with its moments, is 0 for rigid motion, dissipates mu V of unit shear,
-// and no motion is slowed faster than largest_rate(). Runs with mpirun=1,2.
+// and no motion is slowed faster than largest_rate().
 #include "../test.h"
 
 #include <scree/seeding/seeding.h>
@@ -183,3 +183,5 @@ void run()
 
 const UnitTest registered("viscous_force", run);
 } // namespace test_viscous_force
+
+// Runs with mpirun=1,2.

@@ -3,7 +3,6 @@
 // Checkpoints of two sets of points, one of them empty, come back to the last digit. Of two checkpoints, damage to the
 // newer one is named and the older one is read; damage to both is an error. A disk that is full while a checkpoint is
 // written costs no older one.
-// Runs with mpirun=1,2.
 #include "../test.h"
 
 #include <scree/input/input_error.h>
@@ -374,3 +373,5 @@ void run()
 
 const UnitTest registered("checkpoint_faults", run);
 } // namespace test_checkpoint_faults
+
+// Runs with mpirun=1,2.

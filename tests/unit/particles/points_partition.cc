@@ -2,7 +2,6 @@
 
 // Points of the lower half of a box cost nine times those of the upper: the ranks' shares of points are even at first,
 // those of cost after a repartition by measured cost. A measurement that was interrupted spoils nothing.
-// Runs with mpirun=2.
 #include "../test.h"
 
 #include <scree/particles/partition.h>
@@ -80,3 +79,5 @@ void run()
 
 const UnitTest registered("points_partition", run);
 } // namespace test_points_partition
+
+// Runs with mpirun=2.

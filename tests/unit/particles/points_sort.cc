@@ -4,7 +4,6 @@
 // whether points stay in their cells, change cells and ranks, fly through several cells or leave the mesh; cells are in
 // order; the own lists are those of the handler, point by point; while few change cells, nothing moves in memory; and
 // neither deal.II's sort nor lifting the points off the mesh changes the order of points in a cell.
-// Runs with mpirun=1,2,3.
 #include "../test.h"
 
 #include <scree/particles/point_set.h>
@@ -185,3 +184,5 @@ void run()
 
 const UnitTest registered("points_sort", run);
 } // namespace test_points_sort
+
+// Runs with mpirun=1,2,3.

@@ -5,7 +5,6 @@
 // the volume of its region outside the soil and of the pores inside, also where the surfaces of both cut the lattice;
 // single-point water fills the pores of its soil; bodies without pores are refused. Grains and pores follow from each
 // pair of unit weights, and contradictions are refused. 1 and 2 ranks make the same points.
-// Runs with mpirun=1,2.
 #include "../soil.h"
 
 #include <scree/input/input_error.h>
@@ -210,3 +209,5 @@ void run()
 
 const UnitTest registered("seeding", run);
 } // namespace test_seeding
+
+// Runs with mpirun=1,2.

@@ -3,7 +3,7 @@
 // Stress and pressure at the start: pressure is the weight of the water above, in the soil and outside; the soil's
 // vertical stress is the weight above less the pressure, horizontal ones are K0 times that, shear is none. Below a
 // level and an inclined surface, dry and with the water table above and inside the soil, in two layers, and with
-// gravity along any axis. Runs with mpirun=1,2.
+// gravity along any axis.
 #include "../soil.h"
 
 #include <scree/initial/geostatic.h>
@@ -148,3 +148,5 @@ void run()
 
 const UnitTest registered("stress_at_start", run);
 } // namespace test_stress_at_start
+
+// Runs with mpirun=1,2.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Files that are written while a run goes on: the order of stages and jobs, faults of one rank, and the end of a run.
-// Runs with mpirun=1,2.
 #include "../test.h"
 
 #include <scree/io/files.h>
@@ -88,3 +87,5 @@ void run()
 
 const UnitTest registered_test("background_writer", run);
 } // namespace test_background_writer
+
+// Runs with mpirun=1,2.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // The measures of the statistics on fields made by hand.
-// Runs with mpirun=1,2.
 #include "../soil.h"
 
 
@@ -229,3 +228,5 @@ void run()
 
 const UnitTest registered("output_measures", run);
 } // namespace test_output_measures
+
+// Runs with mpirun=1,2.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Values at places, columns above the ground, the front and the lasting numbers of points, of fields made by hand.
-// Runs with mpirun=1,2.
 #include "../soil.h"
 
 
@@ -164,3 +163,5 @@ void run()
 
 const UnitTest registered("output_probes", run);
 } // namespace test_output_probes
+
+// Runs with mpirun=1,2.

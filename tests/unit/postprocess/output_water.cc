@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Pictures and statistics of soil and water: which columns there are, and fields that move with known velocities.
-// Runs with mpirun=1,2.
 #include "../soil.h"
 
 
@@ -225,3 +224,5 @@ void run()
 
 const UnitTest registered("output_water", run);
 } // namespace test_output_water
+
+// Runs with mpirun=1,2.

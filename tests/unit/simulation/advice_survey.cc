@@ -2,7 +2,6 @@
 
 // What an advice finds in the points of a case: sizes, counts, stiffness and fall of the centre of mass, against hand
 // calculation.
-// Runs with mpirun=1,2.
 #include "../test.h"
 
 #include <scree/materials/laws/linear_elastic.h>
@@ -115,3 +114,5 @@ void run()
 
 const UnitTest registered("advice_survey", run);
 } // namespace test_advice_survey
+
+// Runs with mpirun=1,2.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Averages of the strain that softens soil, own + 2 (mean - own): of fields whose mean is known.
-// Runs with mpirun=1,2.
 #include "../soil.h"
 
 #include <scree/materials/laws/mohr_coulomb.h>
@@ -141,3 +140,5 @@ void run()
 
 const UnitTest registered("nonlocal_average", run);
 } // namespace test_nonlocal_average
+
+// Runs with mpirun=1,2.

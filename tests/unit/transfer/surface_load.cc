@@ -5,7 +5,6 @@
 // uniform stress is in balance with the load on its face, wherever that face lies in its cell: at every node that takes
 // load the forces of stress and load differ by less than 3 % of the load's part, light nodes included. (With the
 // markers' shape functions a node that soil just reaches is pushed by several times what its soil bears.)
-// Runs with mpirun=1,2.
 #include "../soil.h"
 
 #include <scree/momentum/load_transfer.h>
@@ -156,3 +155,5 @@ void run()
 
 const UnitTest registered("surface_load", run);
 } // namespace test_surface_load
+
+// Runs with mpirun=1,2.

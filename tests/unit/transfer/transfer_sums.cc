@@ -4,7 +4,6 @@
 // of any stress cancel, because shape functions sum to one and their gradients to zero; a linear field of velocity that
 // the points have with its gradient arrives as such at each node. The body touches walls and has oblique edges; stress,
 // velocity and affine matrix are random.
-// Runs with mpirun=1,2.
 #include "../soil.h"
 
 #include <scree/transfer/transfer.h>
@@ -108,3 +107,5 @@ void run()
 
 const UnitTest registered("transfer_sums", run);
 } // namespace test_transfer_sums
+
+// Runs with mpirun=1,2.

@@ -8,7 +8,6 @@
 // - soil that has just crossed a face of cells, whose nodes beyond it have no mass to speak of and any velocity: water
 //   there does not take it;
 // - uniform porosity gives the velocity of the nodes to rounding, water without soil gives it to the last digit.
-// Runs with mpirun=1,2.
 #include "../soil.h"
 
 
@@ -241,3 +240,5 @@ void run()
 
 const UnitTest registered("water_pore_velocity", run);
 } // namespace test_water_pore_velocity
+
+// Runs with mpirun=1,2.
