@@ -5,7 +5,7 @@
 #include <iostream>
 #include <map>
 
-#include "unit_test.h"
+#include "test.h"
 
 namespace
 {

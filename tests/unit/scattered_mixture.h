@@ -2,13 +2,11 @@
 #ifndef scree_tests_unit_scattered_mixture_h
 #define scree_tests_unit_scattered_mixture_h
 
+#include "test.h"
+
 #include <scree/geometry/bed_parameters.h>
 #include <scree/momentum/two_phase_momentum.h>
 
-#include <cmath>
-#include <string>
-
-#include "grid_box.h"
 
 /// Any number from 0 to 1 that follows from a place and a seed: the same on all ranks.
 template <int dim>

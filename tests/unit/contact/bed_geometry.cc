@@ -3,28 +3,15 @@
 // Distances and normals of rigid ground: of a profile and of a raster of heights against the nearest of many places on
 // it, of an expression that is no distance against the closed form; where the ground is missing; and as the mesh
 // samples an arc, at rest and moved; from places one by one and in batches, of ground in parts, too.
-
-#include "../expect.h"
-#include "../random_numbers.h"
+#include "../test.h"
 
 #include <scree/geometry/bed_parameters.h>
 #include <scree/mesh/discrete_level_set.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <iostream>
-#include <limits>
-
-#include "../unit_test.h"
 
 namespace test_bed_geometry
 {
-using namespace dealii;
-using namespace scree;
-
 /// A view must tell the distance to the nearest of some places within `spacing`, its side, and a unit normal
 /// that leads back to the ground.
 template <int dim>
@@ -40,8 +27,8 @@ void compare(const LevelSet<dim> &ground,
     nearest = std::min(nearest, place.distance(x));
   const SurfaceView<dim> view = ground.view(x, reach);
   const double distance       = std::abs(view.distance);
-  AssertThrow(distance <= nearest * (1. + 1e-12) && distance >= nearest - spacing, ExcMessage(what + ": distance"));
-  AssertThrow((view.distance > 0.) == ground.is_open(x), ExcMessage(what + ": side"));
+  require(distance <= nearest * (1. + 1e-12) && distance >= nearest - spacing, what + ": distance");
+  require((view.distance > 0.) == ground.is_open(x), what + ": side");
   expect(view.normal.norm(), 1., 1e-12, what + ": length of the normal");
   expect(ground.view(x - view.distance * view.normal, reach).distance, 0., 1e-12, what + ": distance of the foot");
 }
@@ -60,12 +47,11 @@ void test_profile()
     for (unsigned int i = 0; i <= n; ++i)
       places.push_back(corners[s] + i / double(n) * (corners[s + 1] - corners[s]));
   for (unsigned int k = 0; k < 500; ++k)
-    compare<2>(profile, Point<2>(3. * random.uniform(0., 1.), 1.5 * random.uniform(0., 1.)), places, 2. / n, "profile");
+    compare<2>(profile, Point<2>(random.uniform(0., 3.), random.uniform(0., 1.5)), places, 2. / n, "profile");
   const SurfaceView<2> at_bend = profile.view(Point<2>(0.9, 1.), 2.);
   expect(at_bend.distance, 0.1, 1e-14, "profile: over a bend");
   expect(profile.view(Point<2>(0.7, 0.9), 2.).normal[1], 1., 1e-14, "profile: normal on the ground");
   expect(profile.view(Point<2>(2., 5.), 0.3).distance, 0.3, 0., "profile: out of reach");
-  std::cout << "profile: nearest places found" << std::endl;
 }
 
 
@@ -79,7 +65,7 @@ void test_raster()
   raster.y         = 0.1;
   raster.spacing   = 0.4;
   for (unsigned int i = 0; i < raster.n_columns * raster.n_rows; ++i)
-    raster.values.push_back(0.5 * random.uniform(0., 1.));
+    raster.values.push_back(random.uniform(0., 0.5));
   constexpr unsigned int n = 40; // places a triangle and axis
   std::vector<Point<3>> places;
   const auto node = [&](const unsigned int i, const unsigned int j) {
@@ -98,8 +84,8 @@ void test_raster()
   const HeightSurface ground(raster);
   for (unsigned int k = 0; k < 200; ++k)
     compare<3>(ground,
-               Point<3>(raster.x + random.uniform(0., 1.) * (raster.last_x() - raster.x),
-                        raster.y + random.uniform(0., 1.) * (raster.last_y() - raster.y),
+               Point<3>(random.uniform(raster.x, raster.last_x()),
+                        random.uniform(raster.y, raster.last_y()),
                         random.uniform(0., 1.)),
                places,
                0.02,
@@ -107,7 +93,7 @@ void test_raster()
   raster.values[8] = std::numeric_limits<double>::quiet_NaN();
   const HeightSurface with_hole(raster);
   const Point<3> at_hole(raster.x + 2.1 * raster.spacing, raster.y + 1.1 * raster.spacing, -10.);
-  AssertThrow(with_hole.is_open(at_hole) && !ground.is_open(at_hole), ExcMessage("raster: missing height"));
+  require(with_hole.is_open(at_hole) && !ground.is_open(at_hole), "raster: missing height");
   // The ground ends at the hole in vertical walls: on both sides of the one at the fourth column.
   for (const double column : { 2.8, 3.1 })
     {
@@ -119,8 +105,7 @@ void test_raster()
   const auto tells_of_holes = [](const HeightSurface &surface) {
     return surface.remark().find("are missing") != std::string::npos;
   };
-  AssertThrow(tells_of_holes(with_hole) && !tells_of_holes(ground), ExcMessage("raster: remark"));
-  std::cout << "raster: nearest places found, open where heights are missing, walls around" << std::endl;
+  require(tells_of_holes(with_hole) && !tells_of_holes(ground), "raster: remark");
 }
 
 
@@ -132,8 +117,8 @@ void test_expression()
   double error = 0;
   for (unsigned int k = 0; k < 200; ++k)
     {
-      const double radius = 0.35 + 0.3 * random.uniform(0., 1.), angle = 2. * numbers::PI * random.uniform(0., 1.),
-                   height = 2. * random.uniform(0., 1.) - 1.;
+      const double radius = random.uniform(0.35, 0.65), angle = random.uniform(0., 2. * numbers::PI),
+                   height = random.uniform(-1., 1.);
       const Point<2> direction(std::cos(angle), std::sin(angle));
       const double across = std::sqrt(1. - height * height);
       const Point<3> direction_3d(across * direction[0], across * direction[1], height);
@@ -146,48 +131,40 @@ void test_expression()
                                                   (of_sphere.normal + direction_3d).norm() });
     }
   expect(error, 0., 1e-8, "error of circle and sphere");
-  std::cout << "expression: distances and normals of a circle and a sphere" << std::endl;
 }
 
 
 template <int dim>
 void test_samples()
 {
-  const auto error = [](const double cell_size) {
-    GridParameters parameters;
-    parameters.lower_corner.assign(dim, 0.);
-    parameters.upper_corner.assign(dim, 1.6);
-    parameters.cell_size = cell_size;
-    const BackgroundGrid<dim> grid(parameters, MPI_COMM_WORLD);
+  Point<dim> centre;
+  for (unsigned int a = 0; a < dim; ++a)
+    centre[a] = a + 1 == dim ? 2.3 : 0.8;
+  const auto errors = [&](const double cell_size) {
+    const BackgroundGrid<dim> grid(grid_box<dim>(0., 1.6, cell_size), MPI_COMM_WORLD);
     const ExpressionSurface<dim> bowl("",
                                       dim == 2 ? "2 - sqrt((x - 0.8)^2 + (y - 2.3)^2)"
                                                : "2 - sqrt((x - 0.8)^2 + (y - 0.8)^2 + (z - 2.3)^2)",
                                       cell_size);
     const DiscreteLevelSet<dim> sampled(grid, bowl);
-    Point<dim> centre;
-    for (unsigned int a = 0; a < dim; ++a)
-      centre[a] = a + 1 == dim ? 2.3 : 0.8;
     RandomNumbers random;
     double largest = 0, off = 0;
     for (const auto &cell : grid.triangulation().active_cell_iterators())
-      if (cell->is_locally_owned() && sampled.is_near(cell->active_cell_index()))
+      if (sampled.is_near(cell->active_cell_index()))
         {
-          Point<dim> place;
-          for (unsigned int a = 0; a < dim; ++a)
-            place[a] = random.uniform(0., 1.);
+          const Point<dim> place      = random.point<dim>(0., 1.);
           const Tensor<1, dim> way    = centre - (cell->vertex(0) + cell_size * Tensor<1, dim>(place));
           const SurfaceView<dim> view = sampled.view(cell->active_cell_index(), place);
           largest                     = std::max(largest, std::abs(view.distance - (2. - way.norm())));
           off                         = std::max(off, (view.normal - way / way.norm()).norm());
-          AssertThrow(view.distance >= sampled.least_distance(cell->active_cell_index()), ExcMessage("least distance"));
+          require(view.distance >= sampled.least_distance(cell->active_cell_index()), "least distance");
         }
-    return std::make_pair(Utilities::MPI::max(largest, MPI_COMM_WORLD), Utilities::MPI::max(off, MPI_COMM_WORLD));
+    return std::make_pair(largest, off);
   };
-  const auto coarse = error(0.1), fine = error(0.05);
+  const auto coarse = errors(0.1), fine = errors(0.05);
   // (dim - 1) h^2/(8 R) of a function with curvature 1/R along the surface.
-  AssertThrow(coarse.first < 0.01 * (dim - 1) / 16. * 1.3, ExcMessage("samples: distance"));
-  AssertThrow(coarse.first / fine.first > 3. && coarse.second / fine.second > 3., ExcMessage("samples: order"));
-  std::cout << dim << "D samples of an arc: second order" << std::endl;
+  expect(coarse.first, 0., 0.01 * (dim - 1) / 16. * 1.3, "error of the distance to an arc");
+  require(coarse.first / fine.first > 3. && coarse.second / fine.second > 3., "samples: order");
 }
 
 
@@ -195,43 +172,33 @@ void test_samples()
 template <int dim>
 void test_moved_samples()
 {
-  GridParameters parameters;
-  parameters.lower_corner.assign(dim, 0.);
-  parameters.upper_corner.assign(dim, 1.);
-  parameters.cell_size = 0.1;
-  const BackgroundGrid<dim> grid(parameters, MPI_COMM_WORLD);
+  const BackgroundGrid<dim> grid(grid_box<dim>(0., 1.), MPI_COMM_WORLD);
   const ExpressionSurface<dim> plane(
       "", dim == 2 ? "0.6*(x - 0.43) + 0.8*(y - 0.52)" : "0.6*(x - 0.43) + 0.8*(z - 0.52)", 0.1);
   DiscreteLevelSet<dim> sampled(grid, plane, SurfaceMotion::rigid);
   RandomNumbers random;
   for (unsigned int k = 0; k < 40; ++k)
     {
-      Tensor<1, dim> displacement;
-      for (unsigned int a = 0; a < dim; ++a)
-        displacement[a] = k == 0 ? 0.1 : random.uniform(-0.4, 0.4);
+      const Tensor<1, dim> displacement = k == 0 ? random.point<dim>(0.1, 0.1) : random.point<dim>(-0.4, 0.4);
       sampled.move_to(displacement);
       unsigned int n_near = 0;
       for (const auto &cell : grid.triangulation().active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            Point<dim> place;
-            for (unsigned int a = 0; a < dim; ++a)
-              place[a] = random.uniform(0., 1.);
-            const Point<dim> x    = cell->vertex(0) + 0.1 * Tensor<1, dim>(place);
-            const double distance = plane.view(x - displacement, 1.).distance;
-            const unsigned int i  = cell->active_cell_index();
-            AssertThrow(sampled.is_near(i) || std::abs(distance) > sampled.reach(), ExcMessage("moved: not near"));
-            if (!sampled.is_near(i))
-              continue;
-            ++n_near;
-            AssertThrow(distance >= sampled.least_distance(i), ExcMessage("moved: least distance"));
-            // Farther away than the lattice is sure to know, it only says so.
-            if (std::abs(distance) < sampled.reach() - 0.1 * std::sqrt(dim))
-              expect(sampled.view(i, place).distance, distance, 1e-12, "moved: distance");
-          }
-      AssertThrow(Utilities::MPI::sum(n_near, MPI_COMM_WORLD) > 0, ExcMessage("moved: no cell is near"));
+        {
+          const Point<dim> place = random.point<dim>(0., 1.);
+          const Point<dim> x     = cell->vertex(0) + 0.1 * Tensor<1, dim>(place);
+          const double distance  = plane.view(x - displacement, 1.).distance;
+          const unsigned int i   = cell->active_cell_index();
+          require(sampled.is_near(i) || std::abs(distance) > sampled.reach(), "moved: not near");
+          if (!sampled.is_near(i))
+            continue;
+          ++n_near;
+          require(distance >= sampled.least_distance(i), "moved: least distance");
+          // Farther away than the lattice reaches for sure, the distance is a bound.
+          if (std::abs(distance) < sampled.reach() - 0.1 * std::sqrt(dim))
+            expect(sampled.view(i, place).distance, distance, 1e-12, "moved: distance");
+        }
+      require(n_near > 0, "moved: no cell is near");
     }
-  std::cout << dim << "D samples of a plane that moves" << std::endl;
 }
 
 
@@ -239,17 +206,12 @@ void test_moved_samples()
 template <int dim>
 void test_batches()
 {
-  GridParameters parameters;
-  parameters.lower_corner.assign(dim, 0.);
-  parameters.upper_corner.assign(dim, 1.);
-  parameters.cell_size = 0.1;
-  const BackgroundGrid<dim> grid(parameters, MPI_COMM_WORLD);
+  const BackgroundGrid<dim> grid(grid_box<dim>(0., 1.), MPI_COMM_WORLD);
   const ExpressionSurface<dim> plane("", dim == 2 ? "0.6*x + 0.8*y - 0.4" : "0.6*x + 0.8*z - 0.4", 0.1),
       wall("", "0.7 - x", 0.1);
   const DiscreteLevelSet<dim> at_rest(grid, plane);
   DiscreteLevelSet<dim> moving(grid, wall, SurfaceMotion::rigid);
-  Tensor<1, dim> displacement;
-  displacement[0] = -0.033;
+  const Tensor<1, dim> displacement = -0.033 * Point<dim>::unit_vector(0);
   moving.move_to(displacement);
   const RigidBoundary<dim> ground({ { &at_rest }, { &moving, &displacement } });
   RandomNumbers random;
@@ -260,20 +222,18 @@ void test_batches()
         continue;
       ++n_near;
       std::array<Batch, dim> places;
-      for (Batch &along : places)
-        for (unsigned int l = 0; l < batch_size; ++l)
-          along[l] = random.uniform(-0.2, 1.2);
-      const Batch distances = ground.distances(cell, places);
+      std::array<Point<dim>, batch_size> same;
       for (unsigned int l = 0; l < batch_size; ++l)
         {
-          Point<dim> place;
+          same[l] = random.point<dim>(-0.2, 1.2);
           for (unsigned int a = 0; a < dim; ++a)
-            place[a] = places[a][l];
-          expect(distances[l], ground.view(cell, place).distance, 1e-14, "distance in a batch");
+            places[a][l] = same[l][a];
         }
+      const Batch distances = ground.distances(cell, places);
+      for (unsigned int l = 0; l < batch_size; ++l)
+        expect(distances[l], ground.view(cell, same[l]).distance, 1e-14, "distance in a batch");
     }
-  AssertThrow(n_near > 0, ExcMessage("batches: no cell is near"));
-  std::cout << dim << "D distances in batches" << std::endl;
+  require(n_near > 0, "batches: no cell is near");
 }
 
 

@@ -1,32 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Two masses in contact at a node: what is pulled apart is let go, nothing approaches faster than the gap allows,
 // friction obeys Coulomb's law and only slows down; momentum is kept, energy is not made; limits are right.
+#include "../test.h"
+
 #include <scree/contact/node_contact.h>
-
-#include <cmath>
-#include <iostream>
-
-#include "../random_numbers.h"
-
-#include "../unit_test.h"
 
 namespace test_node_contact
 {
-using namespace dealii;
-using namespace scree;
-
 template <int dim>
 void random_pairs()
 {
   RandomNumbers random;
   double let_go = 0, approach_error = 0, cone = 0, along_error = 0, gained = 0;
   unsigned int n_apart = 0, n_stuck = 0, n_sliding = 0;
-  const auto random_vector = [&] {
-    Tensor<1, dim> v;
-    for (unsigned int a = 0; a < dim; ++a)
-      v[a] = random.uniform(-1., 1.);
-    return v;
-  };
+  const auto random_vector = [&]() -> Tensor<1, dim> { return random.point<dim>(-1., 1.); };
   for (unsigned int trial = 0; trial < 10000; ++trial)
     {
       // Every tenth time the first one cannot be moved.
@@ -57,14 +44,14 @@ void random_pairs()
         along_error = std::max(along_error, (rubbing + friction * pressing * along / along.norm()).norm());
       gained = std::max(gained, impulse * (before + after));
     }
-  std::cout << dim << "D, 10000 random pairs: some apart, stuck and sliding: "
-            << (n_apart > 1000 && n_stuck > 1000 && n_sliding > 1000 ? "yes" : "NO")
-            << ", let go: " << (let_go == 0. ? "yes" : "NO")
-            << ", approach as allowed: " << (approach_error < 1e-12 ? "yes" : "NO")
-            << ", within the cone: " << (cone < 1e-12 ? "yes" : "NO")
-            << ", against the motion: " << (along_error < 1e-12 ? "yes" : "NO")
-            << ", no energy made: " << (gained <= 0. ? "yes" : "NO") << std::endl;
+  require(n_apart > 1000 && n_stuck > 1000 && n_sliding > 1000, "some apart, stuck and sliding");
+  expect(let_go, 0., 0., "impulse of what moves apart");
+  expect(approach_error, 0., 1e-12, "error of the approach");
+  expect(cone, 0., 1e-12, "friction beyond the cone");
+  expect(along_error, 0., 1e-12, "friction that is not against the motion");
+  require(gained <= 0., "energy is made");
 }
+
 
 void run()
 {
@@ -73,18 +60,15 @@ void run()
 
   const Tensor<1, 2> up({ 0., 1. }), right({ 1., 0. });
   const MovingMass<2> ground{ 0., {} }, block{ 0.5, 3. * right - 2. * up };
-  Tensor<1, 2> impulse = contact_impulse(ground, block, up, 0., 0.);
-  std::cout << "smooth ground: " << impulse << std::endl;
-  impulse = contact_impulse(ground, block, up, 0., 0.5);
-  std::cout << "friction of 0.5: " << impulse << std::endl;
-  impulse = contact_impulse(ground, block, up, 0., 2.);
-  std::cout << "friction of 2: " << impulse << std::endl;
-  impulse = contact_impulse(ground, block, up, 1.5, 2.);
-  std::cout << "the same with a gap: " << impulse << std::endl;
-  impulse = contact_impulse({ 1., right }, { 1., -1. * right }, right, 0., 0.3);
-  std::cout << "head on: " << impulse << std::endl;
-  impulse = contact_impulse(ground, { 0., block.velocity }, up, 0., 2.);
-  std::cout << "two that nothing moves: " << impulse << std::endl;
+  const auto compare = [](const Tensor<1, 2> &impulse, const Tensor<1, 2> &expected, const std::string &what) {
+    expect((impulse - expected).norm(), 0., 1e-14, what + ": error of the impulse");
+  };
+  compare(contact_impulse(ground, block, up, 0., 0.), 4. * up, "smooth ground");
+  compare(contact_impulse(ground, block, up, 0., 0.5), 4. * up - 2. * right, "friction of 0.5");
+  compare(contact_impulse(ground, block, up, 0., 2.), 4. * up - 6. * right, "friction of 2");
+  compare(contact_impulse(ground, block, up, 1.5, 2.), up - 2. * right, "the same with a gap");
+  compare(contact_impulse({ 1., right }, { 1., -1. * right }, right, 0., 0.3), right, "head on");
+  compare(contact_impulse(ground, { 0., block.velocity }, up, 0., 2.), Tensor<1, 2>(), "two that nothing moves");
 }
 
 const UnitTest registered("node_contact", run);

@@ -2,20 +2,14 @@
 
 // Rasters that are written and read again, in each format: values, place, missing values and coordinate system. Names
 // of one system differ by program.
-#include "../unit_test.h"
+#include "../test.h"
 
 #include <scree/geometry/raster.h>
 
-#include <cmath>
 #include <fstream>
-#include <iomanip>
-#include <iostream>
-#include <limits>
 
 namespace test_raster_files
 {
-using namespace scree;
-
 Raster some_raster(const std::string &system)
 {
   Raster raster;
@@ -30,20 +24,27 @@ Raster some_raster(const std::string &system)
 }
 
 
-std::string difference(const Raster &one, const Raster &other)
+/// The raster of a file is `raster`.
+void expect_raster(const std::string &file, const Raster &raster)
 {
-  if (one.n_columns != other.n_columns || one.n_rows != other.n_rows)
-    return "another size";
-  if (std::abs(one.x - other.x) + std::abs(one.y - other.y) + std::abs(one.spacing - other.spacing) > 1e-8)
-    return "another place";
-  for (std::size_t i = 0; i < one.values.size(); ++i)
-    if (!(one.values[i] == other.values[i] || (std::isnan(one.values[i]) && std::isnan(other.values[i]))))
-      return "another value " + std::to_string(i);
-  return is_same_system(one.system, other.system, { one.x, one.y }) ? "none" : "another system";
+  const Raster found = read_raster(file, "entry", { 0., 0. });
+  require(found.n_columns == raster.n_columns && found.n_rows == raster.n_rows, file + ": another size");
+  expect(std::abs(found.x - raster.x) + std::abs(found.y - raster.y) + std::abs(found.spacing - raster.spacing),
+         0.,
+         1e-8,
+         file + ": error of the place");
+  for (std::size_t i = 0; i < raster.values.size(); ++i)
+    if (std::isnan(raster.values[i]))
+      require(std::isnan(found.values[i]), file + ": a value that is missing");
+    else
+      expect(
+          found.values[i], raster.values[i], 1e-15 * std::abs(raster.values[i]), file + ": value " + std::to_string(i));
+  require(raster.system.empty() || is_same_system(found.system, raster.system, { raster.x, raster.y }),
+          file + ": another system");
 }
 
 
-/// Values of one row that a text gives, after what GDAL lets a file say of them: NODATA that is rounded otherwise,
+/// Values that a text gives, after what GDAL lets a file say of them: NODATA that is rounded otherwise,
 /// scale, offset, unit, mask and alpha band; and a table of places from the south.
 void read_marked_values()
 {
@@ -64,14 +65,23 @@ void read_marked_values()
                              << band(2, "mask.asc", "<ColorInterp>Alpha</ColorInterp>") << end;
   std::ofstream("mask.vrt") << begin << band(1, "values.asc", "<Offset>0.5</Offset><Scale>0.1</Scale>") << "<MaskBand>"
                             << band(1, "mask.asc", "") << "</MaskBand>" << end;
-  for (const std::string file : { "rounded.asc", "alpha.vrt", "mask.vrt", "places.xyz" })
-    {
-      const Raster raster = read_raster(file, "entry", { 0., 0. });
-      std::cout << file << ':' << std::setprecision(16);
-      for (const double value : raster.values)
-        std::cout << ' ' << value;
-      std::cout << ", first at " << raster.x << ' ' << raster.y << '\n';
-    }
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  Raster raster;
+  raster.n_columns = 4;
+  raster.n_rows    = 2;
+  raster.spacing   = 1.;
+  raster.x = raster.y = 0.5;
+  raster.values       = { 100.123456789012, 1., 1., -9999., 0.1, none, none, none };
+  expect_raster("rounded.asc", raster);
+  raster.values = { 5., 6., 7., none, 1., none, 3., 4. };
+  expect_raster("alpha.vrt", raster);
+  for (double &value : raster.values)
+    value = 0.5 + 0.1 * value;
+  expect_raster("mask.vrt", raster);
+  raster.n_columns = 2;
+  raster.x = raster.y = 0.;
+  raster.values       = { 1., 2., 3., 4. };
+  expect_raster("places.xyz", raster);
 }
 
 
@@ -86,22 +96,24 @@ void run()
                              R"(PARAMETER["Longitude_Of_Center",7.43958333333333],)"
                              R"(PARAMETER["Latitude_Of_Center",46.9524055555556],UNIT["Meter",1.0]])";
   const Raster raster      = some_raster(system);
+  require(ascii_grid(raster) == "ncols 3\nnrows 2\nxllcorner 2600000\nyllcorner 1200000\ncellsize 2.5\n"
+                                "NODATA_value -9999\n4 -1.25 1024\n0 0.5 -9999\n",
+          "The ASCII grid is\n" + ascii_grid(raster));
   std::ofstream("map.asc") << ascii_grid(raster);
   std::ofstream("map.prj") << prj_text(system) << '\n';
-  std::cout << ascii_grid(raster)
-            << "difference of the ASCII grid: " << difference(raster, read_raster("map.asc", "entry", { 0., 0. }))
-            << '\n';
+  expect_raster("map.asc", raster);
   std::ofstream("map.tif", std::ios::binary) << geo_tiff(raster, "thickness", "m");
-  const Raster read = read_raster("map.tif", "entry", { 0., 0. });
+  expect_raster("map.tif", raster);
   std::ofstream("code.tif", std::ios::binary) << geo_tiff(some_raster("EPSG:31254"), "thickness", "m");
-  if (difference(raster, read) != "none" || read.system != "EPSG:2056" ||
-      read_raster_system("code.tif", "entry") != "EPSG:31254" ||
-      !is_same_system(prj_text("EPSG:31254"), "EPSG:31254", { 0., 2e5 }) ||
-      is_same_system(system, "EPSG:31254", { 0., 2e5 }))
-    std::cout << "GeoTIFF: difference " << difference(raster, read) << ", system " << read.system << '\n';
-  std::cout << "other words: " << is_same_system(system, R"(PROJCS["CH1903+ / LV95"])", { 0., 0. })
-            << ", another system: " << is_same_system(system, R"(PROJCS["MGI_Austria_GK_West"])", { 0., 0. })
-            << ", name: " << name_of_system(system) << ", code: " << name_of_system("EPSG:2056") << '\n';
+  const std::string lv95    = read_raster("map.tif", "entry", { 0., 0. }).system,
+                    austria = read_raster_system("code.tif", "entry");
+  require(lv95 == "EPSG:2056" && austria == "EPSG:31254", "systems of GeoTIFF: " + lv95 + ", " + austria);
+  require(is_same_system(prj_text("EPSG:31254"), "EPSG:31254", { 0., 2e5 }) &&
+              !is_same_system(system, "EPSG:31254", { 0., 2e5 }) &&
+              is_same_system(system, R"(PROJCS["CH1903+ / LV95"])", { 0., 0. }) &&
+              !is_same_system(system, R"(PROJCS["MGI_Austria_GK_West"])", { 0., 0. }),
+          "systems under their names and codes");
+  require(name_of_system(system) == "CH1903+_LV95" && name_of_system("EPSG:2056") == "EPSG:2056", "names of systems");
   read_marked_values();
 }
 

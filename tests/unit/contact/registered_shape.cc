@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A shape of one file: registered here, it is an entry of subsections Bed and Obstacle, checked and made like those of
 // source/geometry.
-#include "../unit_test.h"
+#include "../test.h"
 
 #include <scree/geometry/bed_parameters.h>
 #include <scree/input/input_error.h>
 
-#include <deal.II/base/utilities.h>
-
-#include <iostream>
-
 namespace test_registered_shape
 {
-using namespace dealii;
-using namespace scree;
-
 template <int dim>
 class Sphere : public LevelSet<dim>
 {
@@ -58,31 +51,33 @@ const RegisterShape registered("Sphere",
 
 
 template <int dim>
-void print_distance(const std::string &entries, const Point<dim> &x)
+std::unique_ptr<LevelSet<dim>> sphere_of(const std::string &entries)
 {
   BedParameters bed;
   ParameterHandler prm;
   bed.add_parameters(prm);
   prm.parse_input_from_string("subsection Bed\n set Type = fixed\n" + entries + "\nend");
-  try
-    {
-      bed.check(dim);
-      const auto sphere = make_bed<dim>(bed, {}, {}, 0.1);
-      std::cout << bed.geometry().second << ": " << sphere->view(x, 1.).distance << ' ' << sphere->is_open(x) << '\n';
-    }
-  catch (const EntryError &error)
-    {
-      std::cout << error.what() << '\n';
-    }
+  bed.check(dim);
+  return make_bed<dim>(bed, {}, {}, 0.1);
 }
 
 
 void run()
 {
-  print_distance<2>("set Sphere = 1, 2, 0.5", Point<2>(1., 3.));
-  print_distance<3>("set Sphere = 1, 2, 3, 0.5", Point<3>(1., 2., 3.25));
-  print_distance<3>("set Sphere = 1, 2, 0.5", Point<3>());
-  print_distance<2>("set Sphere = 1, 2, 0.5\n set Level set expression = y", Point<2>());
+  const auto circle = sphere_of<2>("set Sphere = 1, 2, 0.5");
+  expect(circle->view(Point<2>(1., 3.), 1.).distance, 0.5, 1e-15, "distance outside");
+  require(circle->is_open(Point<2>(1., 3.)), "it is open outside");
+  const auto sphere = sphere_of<3>("set Sphere = 1, 2, 3, 0.5");
+  expect(sphere->view(Point<3>(1., 2., 3.25), 1.).distance, -0.25, 1e-15, "distance inside");
+  require(!sphere->is_open(Point<3>(1., 2., 3.25)), "it is not open inside");
+  const std::string entry = "subsection Bed, entry \"Sphere\" = 1, 2, 0.5: ";
+  expect_refusal([] { sphere_of<3>("set Sphere = 1, 2, 0.5"); },
+                 entry + "write the centre, a number an axis, and the radius, all in m.",
+                 "too few numbers");
+  expect_refusal([] { sphere_of<2>("set Sphere = 1, 2, 0.5\n set Level set expression = y"); },
+                 entry + "it is given twice. Keep one of \"Level set expression\", \"Sphere\", \"Profile\" (2D) and " +
+                     "\"Raster\" (3D).",
+                 "two shapes");
 }
 
 const UnitTest registered_test("registered_shape", run);

@@ -2,14 +2,11 @@
 #ifndef scree_tests_unit_one_point_h
 #define scree_tests_unit_one_point_h
 
+#include "../test.h"
+
 #include <scree/materials/hencky_material.h>
 
 #include <functional>
-#include <iostream>
-#include <string>
-
-#include "../expect.h"
-#include "../random_numbers.h"
 
 namespace scree
 {
@@ -128,54 +125,59 @@ inline PrincipalValues random_strain(RandomNumbers &random, const double size)
 }
 
 
-/// 20 points of a law with `n_internal` variables side by side on a path of random increments of this size: lanes and
-/// the path point by point agree, and the points shear by more than `least_shear`. `start` sets the internal variables
-/// of a point.
-template <int dim, unsigned int n_internal, typename Law>
-void test_lanes(
-    const std::string &name,
-    const Law &law,
-    const double size,
-    const double least_shear,
-    RandomNumbers &random,
-    const std::function<void(unsigned int, double *)> &start = [](unsigned int, double *) {})
+/// A random strain and what a law makes of it.
+struct RandomReturn
 {
-  constexpr unsigned int n = n_symmetric_components<dim>, n_points = 20, stride = 2 * n + n_internal;
-  const OnePointMaterial<dim, Law> one_by_one(law);
-  const HenckyMaterial<dim, Law> in_lanes(law);
-  std::vector<double> lanes(n_points * stride);
-  for (unsigned int p = 0; p < n_points; ++p)
-    {
-      double *record = &lanes[p * stride], stress[6] = { -1e4, -1e4, -1e4 };
-      start(p, record + 2 * n);
-      in_lanes.initialise(stress, record, record + n, record + 2 * n);
-    }
-  std::vector<double> points = lanes, increment(dim * dim * n_points), one(n_points, 1.);
+  PrincipalValues trial, strain, stress;
+  double size; ///< of the strains
+  double internal[4] = {};
+  double time_step   = std::numeric_limits<double>::infinity(); ///< s
+  double scale;                                                 ///< of stress, Pa
+  bool is_plastic, is_at_vertex;
+};
+
+
+/// A million random returns of a law. `start` sets internal variables and time step and gives the strength, Pa; `check`
+/// looks at the result. All are resolved, none makes energy, and `n_plastic` at least are plastic.
+template <typename Law, typename Start, typename Check>
+void random_returns(const std::string &name,
+                    const Law &law,
+                    RandomNumbers &random,
+                    const unsigned int n_plastic,
+                    const Start &start,
+                    const Check &check)
+{
   UpdateReport report;
-  double largest = 0, largest_shear = 0;
-  for (unsigned int step = 0; step < 2000; ++step)
+  double smallest_dissipation = 0;
+  unsigned int n              = 0;
+  for (unsigned int i = 0; i < 1000000; ++i)
     {
-      for (unsigned int c = 0; c < dim * dim; ++c)
-        for (unsigned int p = 0; p < n_points; ++p)
-          increment[c * n_points + p] = (c % (dim + 1) == 0 ? 1 : 0) + size * random.uniform(-1, 1);
-      const MaterialMotion<dim> motion{ increment.data(), one.data(), one.data(), one.data(), n_points, 1e-3 };
-      const auto update = [&](const Material<dim> &material, std::vector<double> &records) {
-        material.update({ n_points, stride, &records[0], &records[n], &records[2 * n] }, motion, report);
-      };
-      update(in_lanes, lanes);
-      update(one_by_one, points);
+      RandomReturn point;
+      point.size  = random.log_uniform(1e-6, 1e-1);
+      point.trial = point.strain = random_strain(random, point.size);
+      point.scale                = start(point) + law.bulk_modulus(0) * point.size;
+      const auto n_before        = report.n_vertices + report.n_separated;
+      point.is_plastic   = return_point(law, point.strain, point.internal, 1, point.stress, report, point.time_step);
+      point.is_at_vertex = report.n_vertices + report.n_separated > n_before;
+      n += point.is_plastic;
+      double dissipation = 0;
+      for (unsigned int k = 0; k < 3; ++k)
+        dissipation += point.stress[k] * (point.trial[k] - point.strain[k]);
+      smallest_dissipation = std::min(smallest_dissipation, dissipation / (point.scale * point.size));
+      check(point);
     }
-  for (unsigned int i = 0; i < lanes.size(); ++i)
-    {
-      const unsigned int c = i % stride;
-      const double scale   = c >= n && c < 2 * n ? 1e5 : 1;
-      largest              = std::max(largest, std::abs(lanes[i] - points[i]) / scale);
-      largest_shear        = c == 2 * n + 1 ? std::max(largest_shear, lanes[i]) : largest_shear;
-    }
-  AssertThrow(report.n_unresolved == 0, dealii::ExcMessage(name + ": unresolved"));
-  AssertThrow(largest_shear > least_shear, dealii::ExcMessage(name + ": the points did not shear"));
-  expect(largest, 0, 1e-7, name + ": difference of lanes");
-  std::cout << dim << "D, " << name << ", in lanes: OK" << std::endl;
+  expect(smallest_dissipation, 0, 1e-12, name + ": energy made");
+  require(report.n_unresolved == 0, name + ": unresolved");
+  require(n > n_plastic, name + ": plastic states were not visited");
+}
+
+
+inline double largest_difference(const PrincipalValues &a, const PrincipalValues &b)
+{
+  double largest = 0;
+  for (unsigned int k = 0; k < 3; ++k)
+    largest = std::max(largest, std::abs(a[k] - b[k]));
+  return largest;
 }
 } // namespace scree
 

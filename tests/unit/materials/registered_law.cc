@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A law of one file: registered here, it is a value of entry "Material" with a subsection of its own, which is checked,
 // questioned and made like those of source/materials/laws.
-#include "../unit_test.h"
+#include "../test.h"
 
 #include <scree/input/input_error.h>
 #include <scree/materials/laws/linear_elastic.h>
 #include <scree/materials/table.h>
 
-#include <iostream>
-
 namespace test_registered_law
 {
-using namespace dealii;
-using namespace scree;
-
 /// Hencky elasticity by its moduli.
 struct ModuliParameters : LawEntries
 {

@@ -3,37 +3,18 @@
 // What rigid ground leaves open of the cells: volume, moments of third degree, hat functions and the ground's own area
 // and normal, of planes at any angle and place to rounding, of a circle and a sphere to second order; ground on cells'
 // faces; the mass of bodies that are seeded on planes.
-
-#include "../grid_box.h"
-#include "../expect.h"
-#include "../random_numbers.h"
+#include "../test.h"
 
 #include <scree/geometry/bed_parameters.h>
 #include <scree/mesh/cut_cells.h>
-#include <scree/mesh/background_grid.h>
 #include <scree/particles/region.h>
 
 #include <deal.II/base/geometry_info.h>
-#include <deal.II/base/mpi.h>
 
-#include <cmath>
-#include <iostream>
 #include <numeric>
-
-#include "../unit_test.h"
 
 namespace test_bed_cells
 {
-using namespace dealii;
-using namespace scree;
-
-template <int dim>
-BackgroundGrid<dim> box(const double cell_size)
-{
-  return BackgroundGrid<dim>(grid_box<dim>(0., 1., cell_size), MPI_COMM_WORLD);
-}
-
-
 /// A half space.
 template <int dim>
 struct Plane : LevelSet<dim>
@@ -125,16 +106,13 @@ template <int dim>
 void test_planes()
 {
   RandomNumbers random;
-  const BackgroundGrid<dim> grid = box<dim>(dim == 2 ? 0.1 : 0.25);
-  const double width             = grid.cell_size();
+  const BackgroundGrid<dim> grid(grid_box<dim>(0., 1., dim == 2 ? 0.1 : 0.25), MPI_COMM_WORLD);
+  const double width = grid.cell_size();
   for (unsigned int k = 0; k < (dim == 2 ? 40 : 10); ++k)
     {
       Plane<dim> plane;
-      for (unsigned int a = 0; a < dim; ++a)
-        {
-          plane.origin[a] = random.uniform(0.2, 0.8);
-          plane.normal[a] = random.uniform(-1., 1.);
-        }
+      plane.origin = random.point<dim>(0.2, 0.8);
+      plane.normal = random.point<dim>(-1., 1.);
       if (k < 2 * dim) // along the cells, on their faces and not
         {
           plane.normal        = Tensor<1, dim>();
@@ -180,14 +158,13 @@ void test_planes()
       ahead.origin += step * plane.normal;
       expect(area, (exact(behind).first - exact(ahead).first) / (2 * step), 1e-7, "area of a plane");
       // x y (z) is of first degree an axis; x^3 y^3 (z^3) of third: against a grid of other cells.
-      const BackgroundGrid<dim> other = box<dim>(0.5);
+      const BackgroundGrid<dim> other(grid_box<dim>(0., 1., 0.5), MPI_COMM_WORLD);
       const DiscreteLevelSet<dim> other_surface(other, plane);
       const RigidBoundary<dim> other_ground({ { &other_surface } });
       const CutCells<dim> other_cells(other, other_ground);
       expect(moment(grid, cells, plane, 1), moment(other, other_cells, plane, 1), 1e-11, "moment of first degree");
       expect(moment(grid, cells, plane, 3), moment(other, other_cells, plane, 3), 1e-11, "moment of third degree");
     }
-  std::cout << dim << "D: planes at any angle" << std::endl;
 }
 
 
@@ -195,7 +172,7 @@ template <int dim>
 void test_ball()
 {
   const auto error = [](const double cell_size) {
-    const BackgroundGrid<dim> grid = box<dim>(cell_size);
+    const BackgroundGrid<dim> grid(grid_box<dim>(0., 1., cell_size), MPI_COMM_WORLD);
     const ExpressionSurface<dim> ball("",
                                       dim == 2 ? "sqrt((x - 0.52)^2 + (y - 0.49)^2) - 0.35"
                                                : "sqrt((x - 0.52)^2 + (y - 0.49)^2 + (z - 0.5)^2) - 0.35",
@@ -214,7 +191,6 @@ void test_ball()
   const double coarse = error(0.1), fine = error(0.05);
   expect(fine, 0., 0.05 * 0.05 / (0.35 * 0.35), "error of a ball's volume and area");
   expect(std::log2(coarse / fine), 2., 0.4, "order of a ball's volume and area");
-  std::cout << dim << "D: volume and area of a ball, of second order" << std::endl;
 }
 
 
@@ -252,7 +228,6 @@ void test_seeds()
       volume_of_region(distance + " < " + Utilities::to_string(0.2 * scale, 16)) / slab, 1., 1e-6, "volume of a slab");
   if (dim == 2) // a triangle between the plane, the wall and the water's surface: above x = 0 the plane is at y = .23
     expect(volume_of_region("y < 0.6") / (0.5 * 0.37 * 0.74), 1., 1e-6, "volume of a triangle");
-  std::cout << dim << "D: volume of what is seeded" << std::endl;
 }
 
 
@@ -268,12 +243,3 @@ void run()
 
 const UnitTest registered("bed_cells", run);
 } // namespace test_bed_cells
-
-
-// Output:
-// 2D: planes at any angle
-// 3D: planes at any angle
-// 2D: volume and area of a ball, of second order
-// 3D: volume and area of a ball, of second order
-// 2D: volume of what is seeded
-// 3D: volume of what is seeded

@@ -1,49 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// The background grid's shape functions, on one rank and on two: constants and linear fields are reproduced to
-// rounding, a random field has no jump across a face (splines: nor has its gradient), nodes are as many as the tensor
-// product of the one-dimensional bases has, and those on a wall say so.
+// The background grid's shape functions: constants and linear fields are reproduced to rounding, a random field has no
+// jump across a face (splines: nor has its gradient), nodes are as many as the tensor product of the one-dimensional
+// bases has, and those on a wall say so.
+#include "../test.h"
 
-#include <scree/mesh/background_grid.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <cmath>
-#include <iostream>
 #include <map>
-
-#include "../random_numbers.h"
-
-#include "../unit_test.h"
 
 namespace test_grid_basis
 {
-using namespace dealii;
-using namespace scree;
-
-/// How far a position is from the lower corner, in half cells: nodes and face points sit at whole numbers.
-template <int dim>
-std::array<long, dim> half_cells(const BackgroundGrid<dim> &grid, const Point<dim> &x)
-{
-  std::array<long, dim> result;
-  for (unsigned int a = 0; a < dim; ++a)
-    result[a] = std::lround(2. * (x[a] - grid.lower_corner()[a]) / grid.cell_size());
-  return result;
-}
-
-/// A number in (-1, 1) that knows nothing of its neighbours' and is the same on all ranks.
-template <int dim>
-double random_value(const BackgroundGrid<dim> &grid, const unsigned int node)
-{
-  std::uint64_t bits = 0;
-  for (const long i : half_cells(grid, grid.node_position(node)))
-    {
-      bits = (bits + i + 1) * 0x9e3779b97f4a7c15;
-      bits ^= bits >> 29;
-    }
-  return 2. * static_cast<double>(bits >> 11) * 0x1p-53 - 1.;
-}
-
 /// Sum of `coefficient(node)` times the shape functions at a place of a cell, and its gradient.
 template <int dim, int n, typename Coefficient>
 std::pair<double, Tensor<1, dim>>
@@ -80,12 +45,8 @@ double linear_error(const BackgroundGrid<dim> &grid)
     if (cell->is_locally_owned())
       for (unsigned int sample = 0; sample < 20; ++sample)
         {
-          Point<dim> x, place;
-          for (unsigned int a = 0; a < dim; ++a)
-            {
-              x[a]     = random.uniform(0, 1);
-              place[a] = cell->vertex(0)[a] + grid.cell_size() * x[a];
-            }
+          const Point<dim> x     = random.point<dim>(0, 1);
+          const Point<dim> place = cell->vertex(0) + grid.cell_size() * Tensor<1, dim>(x);
           const auto one = evaluate<dim, n>(grid, cell->active_cell_index(), x, [](const unsigned int) { return 1.; });
           error          = std::max({ error, std::abs(one.first - 1.), grid.cell_size() * one.second.norm() });
           for (unsigned int a = 0; a < dim; ++a)
@@ -122,7 +83,7 @@ std::pair<double, double> jumps(const BackgroundGrid<dim> &grid)
                 key[a] = std::lround(10. * ((cell->vertex(0)[a] - grid.lower_corner()[a]) / grid.cell_size() + x[a]));
               const auto [value, gradient] =
                   evaluate<dim, n>(grid, cell->active_cell_index(), x, [&](const unsigned int node) {
-                    return random_value(grid, node);
+                    return pattern(grid.node_position(node));
                   });
               Trace trace{ value };
               for (unsigned int a = 0; a < dim; ++a)
@@ -137,12 +98,12 @@ std::pair<double, double> jumps(const BackgroundGrid<dim> &grid)
   std::pair<double, double> result(0., 0.);
   for (const auto &[key, sides] : faces)
     {
-      AssertThrow(sides.size() == 2, ExcMessage("A face has " + std::to_string(sides.size()) + " sides."));
+      require(sides.size() == 2, "A face has " + std::to_string(sides.size()) + " sides.");
       result.first = std::max(result.first, std::abs(sides[0][0] - sides[1][0]));
       for (unsigned int a = 1; a <= dim; ++a)
         result.second = std::max(result.second, std::abs(sides[0][a] - sides[1][a]));
     }
-  return result;
+  return { max_of_ranks(result.first), max_of_ranks(result.second) };
 }
 
 /// Throws unless the nodes that lie on a wall are those that say so, and each wall has as many as it should.
@@ -158,58 +119,44 @@ void check_walls(const BackgroundGrid<dim> &grid, const std::array<unsigned int,
       for (unsigned int node = 0; node < grid.n_owned_nodes() + n_ghosts; ++node)
         {
           const bool on_wall = std::abs(grid.node_position(node)[axis] - wall) < 1e-6 * grid.cell_size();
-          AssertThrow(on_wall == ((grid.node_faces(node) >> face) & 1), ExcMessage("A node's walls are wrong."));
+          require(on_wall == ((grid.node_faces(node) >> face) & 1), "A node's walls are wrong.");
           if (on_wall && node < grid.n_owned_nodes())
             ++n;
         }
       for (unsigned int a = 0; a < dim; ++a)
         expected *= a == axis ? 1 : nodes_along[a];
-      AssertThrow(Utilities::MPI::sum(n, grid.communicator()) == expected,
-                  ExcMessage("A wall has the wrong number of nodes."));
+      require(Utilities::MPI::sum(n, grid.communicator()) == expected, "A wall has the wrong number of nodes.");
     }
 }
 
 template <int dim, int n>
 void test(const std::string &basis, const std::array<unsigned int, dim> &cells)
 {
-  GridParameters parameters;
-  parameters.basis     = basis;
-  parameters.cell_size = 0.3;
-  parameters.lower_corner.assign(dim, -0.7);
-  parameters.upper_corner.clear();
+  std::vector<double> upper;
   std::array<unsigned int, dim> nodes_along;
   unsigned int expected = 1;
   for (unsigned int a = 0; a < dim; ++a)
     {
-      parameters.upper_corner.push_back(-0.7 + 0.3 * cells[a]);
+      upper.push_back(-0.7 + 0.3 * cells[a]);
       nodes_along[a] = cells[a] + (basis == "spline" ? 2 : 1);
       expected *= nodes_along[a];
     }
+  const GridParameters parameters = grid_box(-0.7, upper, 0.3, basis);
   parameters.check(dim);
   const BackgroundGrid<dim> grid(parameters, MPI_COMM_WORLD);
 
   // A node acts on a cell exactly if it is one of its n^dim; all have one owner.
-  AssertThrow(Utilities::MPI::sum(grid.n_owned_nodes(), MPI_COMM_WORLD) == expected,
-              ExcMessage("The grid has the wrong number of nodes."));
+  require(Utilities::MPI::sum(grid.n_owned_nodes(), MPI_COMM_WORLD) == expected,
+          "The grid has the wrong number of nodes.");
   check_walls<dim>(grid, nodes_along);
 
   // Sums of 3^dim products of numbers of size 1: rounding stays below 100 units in the last place.
-  const double error = linear_error<dim, n>(grid);
-  AssertThrow(error < 3e-14, ExcMessage("Linear fields are not exact: " + Utilities::to_string(error)));
+  expect(linear_error<dim, n>(grid), 0, 3e-14, "error of linear fields");
   // A random field's gradient is of size 1 per cell.
   const auto [value_jump, gradient_jump] = jumps<dim, n>(grid);
-  AssertThrow(value_jump < 1e-13, ExcMessage("The field jumps by " + Utilities::to_string(value_jump)));
-  if (basis == "spline")
-    AssertThrow(gradient_jump < 1e-10, ExcMessage("The gradient jumps by " + Utilities::to_string(gradient_jump)));
-
-  std::cout << dim << "D " << basis;
-  for (const unsigned int along : cells)
-    std::cout << ' ' << along;
-  std::cout << " cells: " << expected << " nodes; linear exact, continuous: OK; ";
-  if (basis == "spline")
-    std::cout << "C1: OK" << std::endl;
-  else
-    std::cout << "the gradient jumps by " << gradient_jump << std::endl;
+  expect(value_jump, 0, 1e-13, "jump of the field");
+  require(basis == "spline" ? gradient_jump < 1e-10 : gradient_jump > 0.1,
+          "The gradient of a " + basis + " field jumps.");
 }
 
 
@@ -230,19 +177,4 @@ void run()
 const UnitTest registered("grid_basis", run);
 } // namespace test_grid_basis
 
-
-// Output of mpirun=1,2:
-// 2D spline 8 4 cells: 60 nodes; linear exact, continuous: OK; C1: OK
-// 2D linear 8 4 cells: 45 nodes; linear exact, continuous: OK; the gradient jumps by 2.63261
-// 2D spline 7 3 cells: 45 nodes; linear exact, continuous: OK; C1: OK
-// 2D linear 7 3 cells: 32 nodes; linear exact, continuous: OK; the gradient jumps by 2.16604
-// 2D spline 6 10 cells: 96 nodes; linear exact, continuous: OK; C1: OK
-// 2D linear 6 10 cells: 77 nodes; linear exact, continuous: OK; the gradient jumps by 2.1315
-// 2D spline 5 1 cells: 21 nodes; linear exact, continuous: OK; C1: OK
-// 2D linear 5 1 cells: 12 nodes; linear exact, continuous: OK; the gradient jumps by 1.9589
-// 3D spline 4 4 2 cells: 144 nodes; linear exact, continuous: OK; C1: OK
-// 3D linear 4 4 2 cells: 75 nodes; linear exact, continuous: OK; the gradient jumps by 2.21754
-// 3D spline 3 5 2 cells: 140 nodes; linear exact, continuous: OK; C1: OK
-// 3D linear 3 5 2 cells: 72 nodes; linear exact, continuous: OK; the gradient jumps by 2.21754
-// 3D spline 6 1 4 cells: 144 nodes; linear exact, continuous: OK; C1: OK
-// 3D linear 6 1 4 cells: 70 nodes; linear exact, continuous: OK; the gradient jumps by 1.82
+// Runs with mpirun=1,2.

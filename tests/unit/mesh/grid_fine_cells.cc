@@ -1,28 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Fine cells around two cubes in boxes of several sizes, none a multiple of the coarse cells: as many cells and nodes
 // in each, whose linear functions are exact; and the same after the cubes have moved away and come back.
-#include <scree/mesh/background_grid.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <iostream>
-#include <sstream>
-
-#include "../grid_box.h"
-#include "../unit_test.h"
+#include "../test.h"
 
 namespace test_grid_fine_cells
 {
-using namespace dealii;
-using namespace scree;
-
 constexpr double width = 0.125;
-
-template <int dim>
-GridParameters box(const double size)
-{
-  return grid_box<dim>(-1., size - 1., width);
-}
 
 /// One cube at the lower corner of the box, one in it, 4 cells wide.
 template <int dim>
@@ -77,11 +60,16 @@ double linear_error(const BackgroundGrid<dim> &grid)
         const Point<dim> x = grid.fine_cells().box().corner(cell.place) + width * (middle - Point<dim>());
         error              = std::max(error, std::abs(sum - value(x)));
       }
-  return Utilities::MPI::max(error, MPI_COMM_WORLD);
+  return max_of_ranks(error);
 }
 
+struct Counts
+{
+  unsigned int inner, at_edge, blocks, nodes, nodes_at_walls;
+};
+
 template <int dim>
-void describe(const BackgroundGrid<dim> &grid)
+void compare(const BackgroundGrid<dim> &grid, const Counts &expected)
 {
   unsigned int n_at_walls = 0, n_uses[4] = {};
   for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
@@ -89,40 +77,43 @@ void describe(const BackgroundGrid<dim> &grid)
   for (const auto &cell : grid.triangulation().active_cell_iterators())
     if (cell->is_locally_owned())
       ++n_uses[cell->user_index()];
-  const auto sum = [](const unsigned int n) { return Utilities::MPI::sum(n, MPI_COMM_WORLD); };
-  std::cout << "  " << sum(n_uses[0]) << " inner cells, " << sum(n_uses[1]) << " at the edge";
+  expect(sum_of_ranks(n_uses[0]), expected.inner, 0, "inner cells");
+  expect(sum_of_ranks(n_uses[1]), expected.at_edge, 0, "cells at the edge");
+  expect(sum_of_ranks(grid.fine_blocks().size()), expected.blocks, 0, "blocks");
+  require(sum_of_ranks(n_uses[2] + n_uses[3]) < 6000, "too many other cells");
+  expect(linear_error(grid), 0, 1e-12, "error of linear functions");
   if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1) // ranks have nodes beyond the edge of their own
-    std::cout << ", " << grid.n_owned_nodes() << " nodes, " << n_at_walls << " at walls";
-  std::cout << ", blocks: " << sum(grid.fine_blocks().size())
-            << (linear_error(grid) < 1e-12 ? ", linear functions are exact" : ", wrong")
-            << (sum(n_uses[2] + n_uses[3]) < 6000 ? "" : ", too many others") << std::endl;
+    {
+      expect(grid.n_owned_nodes(), expected.nodes, 0, "nodes");
+      expect(n_at_walls, expected.nodes_at_walls, 0, "nodes at walls");
+    }
 }
 
 template <int dim>
-void test()
+void test(const double size, const Counts &inside, const Counts &at_far_corner)
 {
-  std::cout << dim << "D" << std::endl;
-  for (const double size : { dim == 2 ? 18.875 : 4.125, dim == 2 ? 37.625 : 8.875 })
+  const double place = 1.25;
+  BackgroundGrid<dim> grid(grid_box<dim>(-1., size - 1., width),
+                           { [&](const Point<dim> &corner) { return is_in_cubes(corner, place); }, nullptr, 1 },
+                           MPI_COMM_WORLD);
+  compare(grid, inside);
+  for (const double next : { size - 1. - 4 * width, place })
     {
-      const double place = 1.25;
-      BackgroundGrid<dim> grid(box<dim>(size),
-                               { [&](const Point<dim> &corner) { return is_in_cubes(corner, place); }, nullptr, 1 },
-                               MPI_COMM_WORLD);
-      describe(grid);
-      for (const double next : { size - 1. - 4 * width, place })
-        {
-          grid.refine(grid.with_surroundings(blocks_of_cubes(grid, next)), Shares::even);
-          grid.distribute_nodes();
-          describe(grid);
-        }
+      grid.refine(grid.with_surroundings(blocks_of_cubes(grid, next)), Shares::even);
+      grid.distribute_nodes();
+      compare(grid, next == place ? inside : at_far_corner);
     }
 }
 
 void run()
 {
-  test<2>();
-  test<3>();
+  for (const double size : { 18.875, 37.625 })
+    test<2>(size, { 149, 59, 52, 296, 19 }, { 113, 32, 41, 221, 40 });
+  for (const double size : { 4.125, 8.875 })
+    test<3>(size, { 1343, 897, 280, 3744, 271 }, { 855, 386, 189, 2331, 602 });
 }
 
 const UnitTest registered("grid_fine_cells", run);
 } // namespace test_grid_fine_cells
+
+// Runs with mpirun=1,2.

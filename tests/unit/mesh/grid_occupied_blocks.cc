@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Blocks in which points are put, in boxes that are too large to look at each cell closely: none of those that a close
 // look at all cells around the regions finds is missed, of a ball with a tail thinner than a cell and of a thin layer.
+#include "../test.h"
+
 #include <scree/mesh/fine_cells.h>
 #include <scree/particles/region.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <iostream>
-#include <iterator>
-#include <sstream>
-
-#include "../unit_test.h"
-
 namespace test_grid_occupied_blocks
 {
-using namespace dealii;
-using namespace scree;
-
 template <int dim>
-void test(const std::string &name, const std::string &expression, const int n_cells)
+void test(const std::string &name, const std::string &expression, const int n_cells, const unsigned int n_blocks)
 {
   constexpr unsigned int n = 2; // points per cell along an axis
   const Region<dim> region(name, expression);
@@ -44,8 +34,8 @@ void test(const std::string &name, const std::string &expression, const int n_ce
   };
   const unsigned int places_of_cell = Utilities::fixed_power<dim>(n) * Region<dim>::n_places_of_cube;
   const Blocks found                = occupied_blocks<dim>(box, { in_cell, at_place, places_of_cell }, MPI_COMM_WORLD);
-  const double close                = Utilities::MPI::sum(double(n_close), MPI_COMM_WORLD);
-  const double places               = Utilities::MPI::sum(double(n_places), MPI_COMM_WORLD);
+  const double close                = sum_of_ranks(double(n_close));
+  const double places               = sum_of_ranks(double(n_places));
 
   Blocks wanted; // The regions lie in the first 40 cells of each axis.
   for (int i = 0; i < Utilities::pow(20, dim); ++i)
@@ -65,30 +55,23 @@ void test(const std::string &name, const std::string &expression, const int n_ce
         wanted.push_back(curve_number<dim>(block));
     }
   make_unique(wanted);
-  Blocks missing, more;
-  std::set_difference(wanted.begin(), wanted.end(), found.begin(), found.end(), std::back_inserter(missing));
-  std::set_difference(found.begin(), found.end(), wanted.begin(), wanted.end(), std::back_inserter(more));
-  std::cout << dim << "D, " << name << ": " << wanted.size() << " blocks, missing " << missing.size() << ", more "
-            << more.size() << (places < 2.1e7 ? "" : ", too many places")
-            << (close < 0.02 * box.n_cells() ? "" : ", too many close looks") << std::endl;
+  const std::string what = std::to_string(dim) + "D, " + name + ": ";
+  expect(wanted.size(), n_blocks, 0, what + "number of blocks");
+  require(found == wanted, what + "blocks are missing, or there are more");
+  require(places < 2.1e7, what + "too many places");
+  require(close < 0.02 * box.n_cells(), what + "too many close looks");
 }
 
 void run()
 {
-  test<2>("ball with a tail", "(x-12)^2 + (y-12)^2 < 16 || (x > 12 && x < 38 && abs(y-12.1) < 0.13)", 1500);
-  test<2>("layer", "y > 7.3 && y < 7.6 && x < 36", 1500);
-  test<3>("ball with a tail",
-          "(x-12)^2 + (y-12)^2 + (z-12)^2 < 16 || (x > 12 && x < 38 && abs(y-12.1) < 0.13 && abs(z-12.1) < 0.13)",
-          150);
-  test<3>("layer", "z > 7.3 && z < 7.6 && x < 36 && y < 30", 150);
+  const std::string tail = " || (x > 12 && x < 38 && abs(y-12.1) < 0.13";
+  test<2>("ball with a tail", "(x-12)^2 + (y-12)^2 < 16" + tail + ")", 1500, 38);
+  test<2>("layer", "y > 7.3 && y < 7.6 && x < 36", 1500, 18);
+  test<3>("ball with a tail", "(x-12)^2 + (y-12)^2 + (z-12)^2 < 16" + tail + " && abs(z-12.1) < 0.13)", 150, 108);
+  test<3>("layer", "z > 7.3 && z < 7.6 && x < 36 && y < 30", 150, 270);
 }
 
 const UnitTest registered("grid_occupied_blocks", run);
 } // namespace test_grid_occupied_blocks
 
-
-// Output of mpirun=1,2:
-// 2D, ball with a tail: 38 blocks, missing 0, more 0
-// 2D, layer: 18 blocks, missing 0, more 0
-// 3D, ball with a tail: 108 blocks, missing 0, more 0
-// 3D, layer: 270 blocks, missing 0, more 0
+// Runs with mpirun=1,2.

@@ -1,50 +1,23 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Divergence and force of the pressure, for scattered points of soil and water whose surface lies
-// inside cells, for every basis, on one rank and on two: they are transposes; uniform flow and motion as a rigid body
-// have no divergence; forces add up to 0; the filled part is a half plane's where the depth is linear; the matrix is
-// symmetric and does not gain: p.(B v) <= 0 after the correction by its solution.
+// inside cells, for every basis: they are transposes; uniform flow and motion as a rigid body have no divergence;
+// forces add up to 0; the filled part is a half plane's where the depth is linear; the matrix is symmetric and does not
+// gain: p.(B v) <= 0 after the correction by its solution.
+#include "../soil.h"
 
-#include "../elastic_soil.h"
-#include "../pattern.h"
 
 #include <scree/pressure/schur_operator.h>
-#include <scree/seeding/seeding.h>
 #include <scree/transfer/water_transfer.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <cmath>
-#include <iostream>
-
-#include "../unit_test.h"
 
 namespace test_pressure_pair
 {
-using namespace dealii;
-using namespace scree;
-
-namespace
-{
-  double sum_of_ranks(const double value)
-  {
-    return Utilities::MPI::sum(value, MPI_COMM_WORLD);
-  }
-
-  /// 0 but for what is more than rounding.
-  double beyond_rounding(const double error, const double size)
-  {
-    return std::abs(error) > 1e-11 * size ? error / size : 0.;
-  }
-} // namespace
-
 template <int dim>
 class Scene
 {
 public:
   explicit Scene(const std::string &basis)
-      : grid(parameters_of(basis), MPI_COMM_WORLD)
+      : grid(grid_box<dim>(0., 0.6, 0.1, basis), MPI_COMM_WORLD)
       , corners(numbered(grid))
       , soil(grid, "x < 0.33", 2, 0.4)
       , water(1000., false, grid.triangulation(), grid.mapping())
@@ -216,14 +189,6 @@ public:
   VertexVector pressure, sums;
 
 private:
-  static GridParameters parameters_of(const std::string &basis)
-  {
-    GridParameters parameters;
-    parameters.basis = basis;
-    parameters.lower_corner.assign(dim, 0.);
-    parameters.upper_corner.assign(dim, 0.6);
-    return parameters;
-  }
   static NodeNumbering<dim> numbered(const BackgroundGrid<dim> &grid)
   {
     NodeNumbering<dim> corners(Basis::linear);
@@ -233,15 +198,18 @@ private:
 };
 
 
+/// @param volume of the filled part, m^dim
+/// @param energies p.(S p) of the pressures below, without and with tractions
 template <int dim>
-void test(const std::string &basis, std::ostream &out)
+void test(const std::string &basis, const double volume, const std::vector<double> &energies)
 {
+  const std::string name = std::to_string(dim) + "D, " + basis + ": ";
   Scene<dim> scene(basis);
   using Vectors = std::pair<Tensor<1, dim>, Tensor<1, dim>>;
-  double volume = 0.;
+  double filled = 0.;
   for (const auto &cell : scene.part.cells())
-    volume += cell.fraction * std::pow(scene.grid.cell_size(), dim);
-  out << dim << "D, " << basis << ", filled part / m^dim: " << sum_of_ranks(volume) << std::endl;
+    filled += cell.fraction * std::pow(scene.grid.cell_size(), dim);
+  expect(sum_of_ranks(filled), volume, 1e-6, name + "filled part");
 
   // Transposes: p.(B u) = -u.f(p).
   scene.set_flow([](const Point<dim> &x) {
@@ -257,23 +225,20 @@ void test(const std::string &basis, std::ostream &out)
   const VertexVector &divergence = scene.divergence();
   scene.pair.add_force(scene.pressure, scene.forces);
   scene.forces.add_contributions();
-  double by_divergence = 0., by_force = 0., size = 0.;
+  double difference = 0., size = 0.;
   Tensor<1, dim> total;
   for (const unsigned int vertex : scene.surface.wet_vertices())
-    by_divergence += scene.pressure.local_element(vertex) * divergence.local_element(vertex);
+    difference += scene.pressure.local_element(vertex) * divergence.local_element(vertex);
   for (const unsigned int node : scene.forces.active_nodes())
     for (unsigned int c = 0; c < 2 * dim; ++c)
       {
-        by_force -= scene.forces[node][c] * scene.flow[node][c];
+        difference += scene.forces[node][c] * scene.flow[node][c];
         size += std::abs(scene.forces[node][c] * scene.flow[node][c]);
         total[c % dim] += scene.forces[node][c];
       }
-  by_divergence = sum_of_ranks(by_divergence);
-  by_force      = sum_of_ranks(by_force);
-  size          = sum_of_ranks(size);
-  out << "  p.(B u) + u.f(p): " << beyond_rounding(by_divergence - by_force, size) << std::endl;
-  for (unsigned int c = 0; c < dim; ++c)
-    out << "  sum of forces: " << beyond_rounding(sum_of_ranks(total[c]), size) << std::endl;
+  size = sum_of_ranks(size);
+  expect(sum_of_ranks(difference) / size, 0., 1e-11, name + "p.(B u) + u.f(p)");
+  expect(sum_of_ranks(total).norm() / size, 0., 1e-11, name + "sum of forces");
 
   // Uniform flow, and turning as a rigid body.
   const double scale = std::pow(scene.grid.cell_size(), dim - 1);
@@ -281,16 +246,16 @@ void test(const std::string &basis, std::ostream &out)
   for (unsigned int c = 0; c < dim; ++c)
     uniform[c] = 1. + c;
   scene.set_flow([&](const Point<dim> &) { return Vectors{ uniform, -0.5 * uniform }; });
-  out << "  divergence of uniform flow: " << beyond_rounding(scene.largest_divergence(), scale) << std::endl;
+  expect(scene.largest_divergence() / scale, 0., 1e-11, name + "divergence of uniform flow");
   scene.set_flow([&](const Point<dim> &x) {
     Vectors turning;
     turning.first[0] = -x[1];
     turning.first[1] = x[0];
     return turning;
   });
-  out << "  of a rigid body: " << beyond_rounding(scene.largest_divergence(), scale) << std::endl;
+  expect(scene.largest_divergence() / scale, 0., 1e-11, name + "divergence of a rigid body");
 
-  // Symmetry: q.(S p) = p.(S q), and p.(S p) > 0.
+  // Symmetry: q.(S p) = p.(S q), and p.(S p) > 0; the same of pressures and tractions together.
   VertexVector first(scene.corners.partitioner()), second(first), s_first(first), s_second(first);
   for (const unsigned int vertex : scene.surface.wet_vertices())
     if (scene.surface.kind(vertex) == PressureDofType::unknown)
@@ -298,35 +263,34 @@ void test(const std::string &basis, std::ostream &out)
         first.local_element(vertex)  = pattern(scene.corners.position(vertex));
         second.local_element(vertex) = pattern(3. * scene.corners.position(vertex));
       }
-  // The same of pressures and tractions together.
   typename GroundRows<dim>::Vectors none, flows_first, flows_second;
-  const auto with_rows = [&](const VertexVector &a, const VertexVector &b, const auto &of_a, const auto &of_b) {
-    double product = 0.;
+  const auto product = [&](const VertexVector &a, const VertexVector &b, const auto &of_a, const auto &of_b) {
+    double result = 0.;
     for (const unsigned int vertex : scene.surface.wet_vertices())
       if (scene.surface.kind(vertex) == PressureDofType::unknown)
-        product += a.local_element(vertex) * b.local_element(vertex);
+        result += a.local_element(vertex) * b.local_element(vertex);
     for (unsigned int k = 0; k < of_a.size(); ++k)
-      product += of_a[k] * of_b[k];
-    return sum_of_ranks(product);
+      result += of_a[k] * of_b[k];
+    return sum_of_ranks(result);
   };
   for (const bool has_rows : { false, true })
     {
       const auto t_first = has_rows ? scene.tractions(1.) : none, t_second = has_rows ? scene.tractions(3.) : none;
       scene.schur.vmult(s_first, flows_first, first, t_first);
       scene.schur.vmult(s_second, flows_second, second, t_second);
-      const double square = with_rows(first, s_first, t_first, flows_first);
-      const double mixed  = with_rows(second, s_first, t_second, flows_first);
-      out << "  " << (has_rows ? "with tractions, " : "")
-          << "q.(S p) - p.(S q): " << beyond_rounding(mixed - with_rows(first, s_second, t_first, flows_second), square)
-          << ", p.(S p) > 0: " << (square > 0.) << std::endl;
-      out << "  p.(S p): " << square << std::endl;
+      const double square = product(first, s_first, t_first, flows_first);
+      expect(square / energies[has_rows], 1., 1e-5, name + "p.(S p) over that before");
+      expect((product(second, s_first, t_second, flows_first) - product(first, s_second, t_first, flows_second)) /
+                 square,
+             0.,
+             1e-11,
+             name + "q.(S p) - p.(S q)");
     }
 
   // A traction of 1 along an axis at one row, of one rank after the other: its own flow is the diagonal.
   std::vector<double> diagonal;
   scene.schur.find_diagonal_of_rows(diagonal);
-  first             = 0.;
-  double difference = 0.;
+  first = 0.;
   for (unsigned int rank = 0; rank < Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD); ++rank)
     {
       typename GroundRows<dim>::Vectors tractions(diagonal.size());
@@ -335,23 +299,20 @@ void test(const std::string &basis, std::ostream &out)
         tractions[0][0] = 1.;
       scene.schur.vmult(s_first, flows_first, first, tractions);
       if (is_own)
-        difference = std::max(difference, std::abs(flows_first[0][0] / diagonal[0] - 1.));
+        expect(flows_first[0][0] / diagonal[0], 1., 1e-11, name + "flow of a row over the diagonal");
     }
-  out << "  diagonal of the rows: " << beyond_rounding(Utilities::MPI::max(difference, MPI_COMM_WORLD), 1.)
-      << std::endl;
 }
 
 
 void run()
 {
-  std::ostream nowhere(nullptr);
-  std::ostream &out = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout : nowhere;
-  for (const std::string basis : { "spline", "linear" })
-    {
-      test<2>(basis, out);
-      test<3>(basis, out);
-    }
+  test<2>("spline", 0.262347, { 0.000816676, 0.00108511 });
+  test<3>("spline", 0.157837, { 2.87803e-05, 0.00290011 });
+  test<2>("linear", 0.262347, { 0.000629316, 0.00156758 });
+  test<3>("linear", 0.157837, { 3.45843e-05, 0.00773974 });
 }
 
 const UnitTest registered("pressure_pair", run);
 } // namespace test_pressure_pair
+
+// Runs with mpirun=1,2.

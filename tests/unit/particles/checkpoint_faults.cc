@@ -3,31 +3,22 @@
 // Checkpoints of two sets of points, one of them empty, come back to the last digit. Of two checkpoints, damage to the
 // newer one is named and the older one is read; damage to both is an error. A disk that is full while a checkpoint is
 // written costs no older one.
+#include "../test.h"
 
 #include <scree/input/input_error.h>
 #include <scree/io/checkpoint.h>
 #include <scree/io/files.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <map>
 #include <regex>
-#include <set>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
-#include "../grid_box.h"
-#include "../unit_test.h"
-
 namespace test_checkpoint_faults
 {
-using namespace dealii;
-using namespace scree;
 namespace fs = std::filesystem;
 
 bool is_first()
@@ -85,7 +76,7 @@ struct Run
                               (point.get_properties()[2] + point.get_properties()[1] + 7. * point.get_location()[0] +
                                point.get_reference_location()[1]),
                           1.);
-    return Utilities::MPI::sum(result, MPI_COMM_WORLD) + 1000. * state + points.handler().n_global_particles() +
+    return sum_of_ranks(result) + 1000. * state + points.handler().n_global_particles() +
            none.handler().n_global_particles();
   }
 
@@ -159,6 +150,7 @@ void set_content(const std::string &file, const std::string &content)
   std::ofstream(file, std::ios::binary) << content;
 }
 
+/// Changes a bit, at a place from 0 to 1.
 void flip(const std::string &file, const double where)
 {
   std::string content = content_of(file);
@@ -167,64 +159,106 @@ void flip(const std::string &file, const double where)
 }
 
 
-using Damage = std::pair<std::string, std::function<void()>>;
+const std::string newer = "run/checkpoint/step-2/", older = "run/checkpoint/step-1/";
+const std::string not_used = "The checkpoint run/checkpoint/step-2 is damaged and not used. ";
 
-/// What can befall one file of the newer checkpoint.
-std::vector<Damage> damage_to(const std::string &folder, const std::string &name)
+/// What befalls the run, and what is said then.
+void test_damage(const std::function<void()> &damage, const std::string &expected, const std::vector<double> &sums)
 {
-  const std::string file = folder + "/checkpoint/step-2/" + name, older = folder + "/checkpoint/step-1/" + name;
-  const std::string other = folder + "/checkpoint/step-2/" + (name == "state" ? "entries" : "state");
-  return { { "first bit", [=] { flip(file, 0.); } },
-           { "a bit in the middle", [=] { flip(file, 0.5); } },
-           { "last bit", [=] { flip(file, 1.); } },
-           { "one byte less", [=] { fs::resize_file(file, fs::file_size(file) - 1); } },
-           { "half of it", [=] { fs::resize_file(file, fs::file_size(file) / 2); } },
-           { "empty", [=] { fs::resize_file(file, 0); } },
-           { "a byte more", [=] { set_content(file, content_of(file) + '\n'); } },
-           { "zeros", [=] { set_content(file, std::string(fs::file_size(file), '\0')); } },
-           { "missing", [=] { fs::remove(file); } },
-           { "a folder",
-             [=] {
-               fs::remove(file);
-               fs::create_directory(file);
-             } },
-           { "a pipe",
-             [=] {
-               fs::remove(file);
-               AssertThrow(mkfifo(file.c_str(), 0600) == 0, ExcInternalError());
-             } },
-           { "that of the older one", [=] { fs::copy_file(older, file, fs::copy_options::overwrite_existing); } },
-           { "another file", [=] { fs::copy_file(other, file, fs::copy_options::overwrite_existing); } } };
+  copy_folder("whole", "run");
+  if (is_first())
+    damage();
+  MPI_Barrier(MPI_COMM_WORLD);
+  const std::string found = without_sizes(outcome<2>("run", sums));
+  require(found == expected, "It is said:\n" + found + "\ninstead of:\n" + expected);
 }
 
 
-/// What can befall whole checkpoints.
-std::vector<Damage> damage_to_folders(const std::string &folder)
+/// Damage to each file of the newer checkpoint.
+void test_files(const std::vector<double> &sums)
 {
-  const std::string newer = folder + "/checkpoint/step-2", older = folder + "/checkpoint/step-1";
-  return { { "nothing", [=] {} },
-           { "newer one missing", [=] { fs::remove_all(newer); } },
-           { "newer one empty",
-             [=] {
-               fs::remove_all(newer);
-               fs::create_directory(newer);
-             } },
-           { "newer one of another format",
-             [=] { set_content(newer + "/manifest", "Scree checkpoint, format 1\nchecksum: 87f4fa9080897eca\n"); } },
-           { "the older one under the newer name",
-             [=] {
-               fs::remove_all(newer);
-               fs::copy(older, newer, fs::copy_options::recursive);
-             } },
-           { "older one damaged", [=] { flip(older + "/state", 0.5); } },
-           { "one that was not finished", [=] { fs::copy(older, folder + "/checkpoint/unfinished"); } },
-           { "a stranger's folder", [=] { fs::create_directory(folder + "/checkpoint/step-9a"); } },
-           { "both damaged",
-             [=] {
-               flip(newer + "/points.0", 0.5);
-               fs::remove(older + "/manifest");
-             } },
-           { "none left", [=] { fs::remove_all(folder + "/checkpoint"); } } };
+  RandomNumbers random;
+  const std::string checksum = "is not what was written (its checksum differs)";
+  std::vector<std::string> files{ "manifest", "entries", "state" };
+  for (unsigned int rank = 0; rank < Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD); ++rank)
+    files.push_back("points." + std::to_string(rank));
+  for (const std::string &name : files)
+    {
+      const std::string file = newer + name;
+      const auto test =
+          [&](const std::function<void()> &damage, const std::string &reason, const std::string &manifest = "") {
+            const bool is_other = name == "manifest" && !manifest.empty();
+            test_damage(damage, not_used + file + ": " + (is_other ? manifest : reason) + ". Step 1", sums);
+          };
+      for (const double where : { 0., random.uniform(0, 1), random.uniform(0, 1), 1. })
+        test([&] { flip(file, where); }, checksum);
+      const std::string size = "has some bytes, but some were written";
+      for (const double part : { 0., random.uniform(0, 1), 1. })
+        test([&] { fs::resize_file(file, std::size_t(part * (fs::file_size(file) - 1))); }, size, checksum);
+      test([&] { set_content(file, content_of(file) + '\n'); }, size, checksum);
+      test([&] { set_content(file, std::string(fs::file_size(file), '\0')); }, checksum);
+      test([&] { fs::remove(file); }, "is missing");
+      test(
+          [&] {
+            fs::remove(file);
+            fs::create_directory(file);
+          },
+          "is no file");
+      test(
+          [&] {
+            fs::remove(file);
+            AssertThrow(mkfifo(file.c_str(), 0600) == 0, ExcInternalError());
+          },
+          "is no file");
+      const auto overwrite = [&](const std::string &from) {
+        fs::copy_file(from, file, fs::copy_options::overwrite_existing);
+      };
+      test([&] { overwrite(older + name); }, checksum, "belongs to step 1, not to this folder");
+      test([&] { overwrite(newer + (name == "state" ? "entries" : "state")); }, size, checksum);
+    }
+}
+
+
+/// What befalls whole checkpoints.
+void test_folders(const std::vector<double> &sums)
+{
+  const auto clear_newer = [] {
+    fs::remove_all(newer);
+    fs::create_directory(newer);
+  };
+  test_damage([] {}, "Step 2", sums);
+  test_damage([] { fs::remove_all(newer); }, "Step 1", sums);
+  test_damage(clear_newer, not_used + newer + "manifest: is missing. Step 1", sums);
+  test_damage([] { set_content(newer + "manifest", "Scree checkpoint, format 1\nchecksum: 87f4fa9080897eca\n"); },
+              not_used + newer +
+                  "manifest: begins with \"Scree checkpoint, format 1\", but this program reads \"Scree " +
+                  "checkpoint, format 20\". Step 1",
+              sums);
+  test_damage(
+      [&] {
+        clear_newer();
+        fs::copy(older, newer, fs::copy_options::recursive);
+      },
+      not_used + newer + "manifest: belongs to step 1, not to this folder. Step 1",
+      sums);
+  test_damage([] { flip(older + "state", 0.5); }, "Step 2", sums);
+  test_damage([] { fs::copy(older, "run/checkpoint/unfinished"); }, "Step 2", sums);
+  test_damage([] { fs::create_directory("run/checkpoint/step-9a"); }, "Step 2", sums);
+  const std::string faults  = newer + "points.0: is not what was written (its checksum differs). ",
+                    missing = older + "manifest: is missing. ", entry = "entry \"Output directory\" = run: ";
+  test_damage(
+      [] {
+        flip(newer + "points.0", 0.5);
+        fs::remove(older + "manifest");
+      },
+      not_used + faults + "The checkpoint run/checkpoint/step-1 is damaged and not used. " + missing + entry +
+          "no checkpoint there is whole. " + faults + missing + "Bring the files back, or run without --resume.",
+      sums);
+  test_damage(
+      [] { fs::remove_all("run/checkpoint"); },
+      entry + "there is no checkpoint to resume from. Write a \"Checkpoint interval\" in subsection Output and run " +
+          "without --resume first.",
+      sums);
 }
 
 
@@ -269,8 +303,8 @@ std::string fault_of_full_disk(const std::vector<double> &sums, const rlim_t n_b
       fault = without_sizes(error.what());
     }
   const std::string found = outcome<2>("full", sums), wanted = fault.empty() ? "Step 3" : "Step 2";
-  AssertThrow(found == wanted, ExcMessage(found + " instead of " + wanted + " after " + fault));
-  AssertThrow(!fs::exists("full/checkpoint/unfinished"), ExcMessage("Rubbish is left after " + fault));
+  require(found == wanted, found + " instead of " + wanted + " after " + fault);
+  require(!fs::exists("full/checkpoint/unfinished"), "Rubbish is left after " + fault);
   return fault;
 }
 
@@ -279,19 +313,22 @@ std::string fault_of_full_disk(const std::vector<double> &sums, const rlim_t n_b
 void test_full_disk(const std::vector<double> &sums)
 {
   const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-  for (const rlim_t n_bytes : { 0u, 30u, 150u, 10000u })
-    {
-      const std::string fault = fault_of_full_disk(sums, n_bytes);
-      std::cout << "room for " << n_bytes << " bytes: " << (fault.empty() ? "no error" : fault) << std::endl;
-      for (unsigned int full_rank = 0; full_rank < Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD); ++full_rank)
-        {
-          const std::string file  = "full/checkpoint/unfinished/points." + std::to_string(full_rank);
-          const std::string found = fault_of_full_disk(sums, rank == full_rank ? n_bytes : RLIM_INFINITY);
-          const std::string wanted =
-              full_rank == 0 || fault.empty() ? fault : file + fault.substr(fault.find(": cannot be written"));
-          AssertThrow(found == wanted, ExcMessage(found + " instead of " + wanted));
-        }
-    }
+  const auto fault        = [](const std::string &file) {
+    return "full/checkpoint/unfinished/" + file +
+           ": cannot be written: File too large (some bytes are needed). Make room there, or name another \"Output "
+                  "directory\". The checkpoint at t = 0.3 s needs some bytes in all. Still whole: full/checkpoint/step-2 and "
+                  "full/checkpoint/step-1.";
+  };
+  for (const auto &[n_bytes, file] :
+       std::map<rlim_t, std::string>{ { 0, "entries" }, { 30, "points.0" }, { 150, "points.0" }, { 10000, "" } })
+    for (int full_rank = -1; full_rank < int(Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)); ++full_rank)
+      {
+        const bool is_full      = full_rank < 0 || int(rank) == full_rank; // below 0: all ranks
+        const std::string found = fault_of_full_disk(sums, is_full ? n_bytes : RLIM_INFINITY);
+        const std::string wanted =
+            file.empty() ? "" : fault(full_rank > 0 ? "points." + std::to_string(full_rank) : file);
+        require(found == wanted, "It is said:\n" + found + "\ninstead of:\n" + wanted);
+      }
 }
 
 
@@ -304,10 +341,12 @@ std::vector<double> test_return(const std::string &folder)
   for (unsigned int step = 0; step < 4; ++step)
     {
       run.save(folder);
-      std::cout << dim << "D " << outcome<dim>(folder, sums) << ", checkpoints:";
-      for (const std::string &name : whole_checkpoints(folder))
-        std::cout << ' ' << name;
-      std::cout << std::endl;
+      const std::string found = outcome<dim>(folder, sums);
+      require(found == "Step " + std::to_string(step), found);
+      std::vector<std::string> wanted{ folder + "/checkpoint/step-" + std::to_string(step) };
+      if (step > 0)
+        wanted.push_back(folder + "/checkpoint/step-" + std::to_string(step - 1));
+      require(whole_checkpoints(folder) == wanted, "There should be this checkpoint and the one before.");
       run.step();
       sums.push_back(run.sum());
     }
@@ -317,9 +356,6 @@ std::vector<double> test_return(const std::string &folder)
 
 void run()
 {
-  for (const std::string folder : { "run_2d", "run_3d", "whole" })
-    if (is_first())
-      fs::remove_all(folder);
   test_return<3>("run_3d");
   const std::vector<double> sums = test_return<2>("run_2d");
 
@@ -330,38 +366,12 @@ void run()
       run.step();
       run.save("whole");
     }
-
-  std::vector<std::string> files{ "manifest", "entries", "state" };
-  for (unsigned int rank = 0; rank < Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD); ++rank)
-    files.push_back("points." + std::to_string(rank));
-  const auto test = [&](const Damage &damage) {
-    copy_folder("whole", "run");
-    if (is_first())
-      damage.second();
-    MPI_Barrier(MPI_COMM_WORLD);
-    return without_sizes(outcome<2>("run", sums));
-  };
-  // What is said of the same damage to each file, FILE; the ranks' points count as one file, of which all say the same.
-  for (unsigned int i = 0; i < damage_to("run", "state").size(); ++i)
-    {
-      std::map<std::string, std::set<std::string>> files_of;
-      for (const std::string &file : files)
-        {
-          const Damage damage = damage_to("run", file)[i];
-          files_of[damage.first + ": " + std::regex_replace(test(damage), std::regex("/" + file + ":"), "/FILE:")]
-              .insert(file.substr(0, file.find('.')));
-        }
-      for (const auto &said : files_of)
-        {
-          for (const std::string &file : said.second)
-            std::cout << file << ' ';
-          std::cout << said.first << std::endl;
-        }
-    }
-  for (const Damage &damage : damage_to_folders("run"))
-    std::cout << damage.first << ": " << test(damage) << std::endl;
+  test_files(sums);
+  test_folders(sums);
   test_full_disk(sums);
 }
 
 const UnitTest registered("checkpoint_faults", run);
 } // namespace test_checkpoint_faults
+
+// Runs with mpirun=1,2.

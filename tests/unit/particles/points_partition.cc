@@ -2,33 +2,20 @@
 
 // Points of the lower half of a box cost nine times those of the upper: the ranks' shares of points are even at first,
 // those of cost after a repartition by measured cost. A measurement that was interrupted spoils nothing.
+#include "../test.h"
 
 #include <scree/particles/partition.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/fe/mapping_cartesian.h>
 #include <deal.II/grid/grid_generator.h>
 
-#include <iostream>
-#include <sstream>
-
-#include "../unit_test.h"
-
 namespace test_points_partition
 {
-using namespace dealii;
-using namespace scree;
-
-namespace
+template <int dim>
+double true_cost(const typename Triangulation<dim>::cell_iterator &cell)
 {
-  constexpr double cheap = 1e-6, dear = 9e-6; // s
-
-  template <int dim>
-  double true_cost(const typename Triangulation<dim>::cell_iterator &cell)
-  {
-    return cell->center()[dim - 1] < 0.5 ? dear : cheap;
-  }
-} // namespace
+  return cell->center()[dim - 1] < 0.5 ? 9e-6 : 1e-6; // s
+}
 
 
 template <int dim>
@@ -56,21 +43,18 @@ void test()
         cost += points.handler().n_particles_in_cell(cell) * cost_of(cell);
     return cost;
   };
-  const auto share = [&](const auto &cost_of) {
+  const auto is_even = [&](const auto &cost_of) {
     const auto of_ranks = Utilities::MPI::min_max_avg(cost_of_rank(cost_of), MPI_COMM_WORLD);
-    return of_ranks.max < 1.02 * of_ranks.avg ? "even" : "uneven";
+    return of_ranks.max < 1.02 * of_ranks.avg;
   };
-  const auto tell = [&](const std::string &when) {
-    std::cout << when << ": points " << share([](const auto &) { return 1.; }) << ", cost " << share(true_cost<dim>)
-              << ", points in all " << points.handler().n_global_particles() << std::endl;
-  };
-
-  std::cout << dim << "D" << std::endl;
+  const auto one         = [](const auto &) { return 1.; };
+  const auto n_points    = points.handler().n_global_particles();
   unsigned int n_fits    = 0;
   const auto repartition = [&] { partition.repartition([&] { ++n_fits; }); };
-  std::cout << "all points on one rank, worth changing: " << partition.is_worth_changing() << std::endl;
+
+  require(partition.is_worth_changing(), "All points are on one rank.");
   repartition();
-  tell("shared out before the first step");
+  require(is_even(one) && !is_even(true_cost<dim>), "Before the first step points are shared out evenly.");
   for (unsigned int step = 0; step < 50; ++step)
     {
       partition.begin_step();
@@ -79,13 +63,11 @@ void test()
         if (cell->is_locally_owned() && step % 10 == 0)
           points.costs().add(cell->active_cell_index(), step == 30 ? 1. : true_cost<dim>(cell));
     }
-  const bool is_worth_changing = partition.is_worth_changing();
-  std::cout << "rank 0 works nine times as long, worth changing: " << is_worth_changing << std::endl;
-  const double imbalance = partition.imbalance();
-  std::cout << "imbalance " << (imbalance > 1.2 ? "above" : "below") << " 1.2" << std::endl;
+  require(partition.is_worth_changing() && partition.imbalance() > 1.2, "Rank 0 works nine times as long.");
   repartition();
-  tell("shared out anew");
-  std::cout << "fitted " << n_fits << " times, changed " << partition.n_repartitions() << " time" << std::endl;
+  require(!is_even(one) && is_even(true_cost<dim>), "Afterwards cost is shared out evenly.");
+  expect(points.handler().n_global_particles(), n_points, 0, "number of points");
+  require(n_fits == 2 && partition.n_repartitions() == 1, "It is fitted twice and changed once.");
 }
 
 
@@ -98,19 +80,4 @@ void run()
 const UnitTest registered("points_partition", run);
 } // namespace test_points_partition
 
-
-// Output of mpirun=2:
-// 2D
-// all points on one rank, worth changing: 1
-// shared out before the first step: points even, cost uneven, points in all 2048
-// rank 0 works nine times as long, worth changing: 1
-// imbalance above 1.2
-// shared out anew: points uneven, cost even, points in all 2048
-// fitted 2 times, changed 1 time
-// 3D
-// all points on one rank, worth changing: 1
-// shared out before the first step: points even, cost uneven, points in all 8192
-// rank 0 works nine times as long, worth changing: 1
-// imbalance above 1.2
-// shared out anew: points uneven, cost even, points in all 8192
-// fitted 2 times, changed 1 time
+// Runs with mpirun=2.

@@ -4,30 +4,19 @@
 // whether points stay in their cells, change cells and ranks, fly through several cells or leave the mesh; cells are in
 // order; the own lists are those of the handler, point by point; while few change cells, nothing moves in memory; and
 // neither deal.II's sort nor lifting the points off the mesh changes the order of points in a cell.
-
-#include "../random_numbers.h"
+#include "../test.h"
 
 #include <scree/particles/point_set.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/fe/mapping_cartesian.h>
 #include <deal.II/grid/grid_generator.h>
 
-#include <iostream>
-#include <algorithm>
-#include <limits>
 #include <map>
-#include <sstream>
 #include <tuple>
-
-#include "../unit_test.h"
 
 namespace test_points_sort
 {
-using namespace dealii;
-using namespace scree;
-
 template <int dim>
 void test()
 {
@@ -157,38 +146,34 @@ void test()
             compare_lists();
           }
       }
-    std::cout << Utilities::MPI::sum(n_differences, MPI_COMM_WORLD) << " differences, "
-              << points.handler().n_global_particles() << " points, "
-              << Utilities::MPI::sum(points.lost().size(), MPI_COMM_WORLD) << " lost" << std::endl;
+    expect(sum_of_ranks(n_differences), 0, 0, "differences after steps of up to " + std::to_string(most) + " m");
   };
 
-  std::cout << dim << "D" << std::endl;
-  std::cout << "stay in their cells: ";
-  walk(10, 0.001);
-  AssertThrow(n_steps_in_place == 10, ExcMessage("Records moved for nothing."));
-  std::cout << "change cells and ranks: ";
-  walk(10, 0.01);
-  std::cout << "leave the mesh, too: ";
-  walk(10, 0.04);
-  std::cout << "fly through several cells: ";
-  walk(3, 0.25);
+  const unsigned int n_points = points.handler().n_global_particles();
+  walk(10, 0.001); // They stay in their cells, ...
+  require(n_steps_in_place == 10, "Records moved for nothing.");
+  expect(points.handler().n_global_particles(), n_points, 0, "points that do not leave");
+  walk(10, 0.01); // change cells and ranks,
+  walk(10, 0.04); // leave the mesh, too,
+  walk(3, 0.25);  // fly through several cells.
+  require(sum_of_ranks(points.lost().size()) > n_points / 2, "Hardly any points left the mesh.");
 
   // Points that were taken out and put back lie in memory as they came.
-  points.handler().prepare_for_coarsening_and_refinement();
-  peer.handler().prepare_for_coarsening_and_refinement();
+  for (PointSet<dim> *set : { &points, &peer })
+    set->handler().prepare_for_coarsening_and_refinement();
   mesh.repartition();
-  points.handler().unpack_after_coarsening_and_refinement();
-  peer.handler().unpack_after_coarsening_and_refinement();
-  points.sort();
-  peer.sort();
+  for (PointSet<dim> *set : { &points, &peer })
+    {
+      set->handler().unpack_after_coarsening_and_refinement();
+      set->sort();
+    }
   compare();
   n_points_before.assign(mesh.n_active_cells(), 0);
-  std::cout << "after a repartition: ";
   walk(10, 0.01);
   // The walks must reach what they are for.
-  AssertThrow(Utilities::MPI::sum(n_cells_of_one_point, MPI_COMM_WORLD) > 0 &&
-                  Utilities::MPI::sum(n_cells_emptied, MPI_COMM_WORLD) > 0,
-              ExcMessage("No cell of one point, or none that emptied"));
+  require(sum_of_ranks(n_cells_of_one_point) > 0 && sum_of_ranks(n_cells_emptied) > 0 &&
+              points.handler().n_global_particles() > 0,
+          "No cell of one point, or none that emptied");
 }
 
 void run()
@@ -199,3 +184,5 @@ void run()
 
 const UnitTest registered("points_sort", run);
 } // namespace test_points_sort
+
+// Runs with mpirun=1,2,3.

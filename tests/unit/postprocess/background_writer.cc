@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Files that are written while a run goes on: the order of stages and jobs, faults of one rank, and the end of a run.
-#include "../unit_test.h"
+#include "../test.h"
 
 #include <scree/io/files.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <future>
-#include <iostream>
 #include <mutex>
 
 namespace test_background_writer
 {
-using namespace scree;
-using namespace dealii;
-
 /// What this rank has done, in its order.
 class Record
 {
@@ -28,22 +22,18 @@ public:
     };
   }
 
-  std::string take()
+  /// On the first rank this has been done since the last call.
+  void compare(const std::string &expected)
   {
     const std::lock_guard<std::mutex> guard(mutex);
-    return std::exchange(lines, "");
+    require(Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) > 0 || lines == expected, "It was done:\n" + lines);
+    lines.clear();
   }
 
 private:
   std::mutex mutex;
   std::string lines;
 };
-
-void print(const std::string &text)
-{
-  if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-    std::cout << text << std::flush;
-}
 
 /// A job of two stages, the second one of the first rank alone.
 FileJob job(Record &record, const std::string &name)
@@ -59,6 +49,7 @@ FileJob job(Record &record, const std::string &name)
 
 void run()
 {
+  const auto ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   Record record;
   std::promise<void> disk;
   const std::shared_future<void> is_free = disk.get_future().share();
@@ -72,26 +63,29 @@ void run()
     writer.start(std::move(slow));
     writer.start(job(record, "next"));
     writer.look();
-    print("while the disk is busy: " + record.take() + '\n');
+    record.compare(""); // the disk is busy
     disk.set_value();
     writer.finish();
-    print(record.take());
+    record.compare("slow: pieces\nslow: record\nslow: done\nnext: pieces\nnext: record\nnext: done\n");
 
-    FileJob refused  = job(record, "refused");
-    const auto ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    FileJob refused = job(record, "refused");
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == ranks - 1)
       refused.stages[0] = [] { throw FileError("the last rank finds no room"); };
     writer.start(std::move(refused));
     writer.start(job(record, "after it"));
     writer.finish();
-    print(record.take());
+    record.compare(
+        std::string(ranks > 1 ? "refused: pieces\n" : "") +
+        "refused: failed: the last rank finds no room\nafter it: pieces\nafter it: record\nafter it: done\n");
 
     // A run that ends by an error keeps what it had begun to write: all of it on one rank.
     writer.start(job(record, "last"));
     writer.start(job(record, "waiting"));
   }
-  print("at the end:\n" + record.take());
+  record.compare(ranks > 1 ? "last: pieces\n" : "last: pieces\nlast: record\nwaiting: pieces\nwaiting: record\n");
 }
 
 const UnitTest registered_test("background_writer", run);
 } // namespace test_background_writer
+
+// Runs with mpirun=1,2.

@@ -2,21 +2,14 @@
 
 // What the lines `Checks` of a run say of mass, momentum and energy, against hand calculation, and how they are laid
 // out.
+#include "../soil.h"
 
-#include "soil_scene.h"
 
 #include <scree/postprocess/measures.h>
 #include <scree/postprocess/checks.h>
 
-#include <iostream>
-
-#include "../unit_test.h"
-
 namespace test_balance_checks
 {
-using namespace dealii;
-using namespace scree;
-
 /// Lets checks look at a scene with these totals.
 struct Watched
 {

@@ -1,27 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Values at places, columns above the ground, the front and the lasting numbers of points, of fields made by hand, on
-// one rank and on two.
+// Values at places, columns above the ground, the front and the lasting numbers of points, of fields made by hand.
+#include "../soil.h"
 
-#include "../expect.h"
-#include "soil_scene.h"
 
 #include <scree/postprocess/measures.h>
 #include <scree/postprocess/probes.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <cmath>
-#include <iostream>
-#include <set>
-
-#include "../unit_test.h"
+#include <map>
 
 namespace test_output_probes
 {
-using namespace dealii;
-using namespace scree;
-
 /// A block of soil in a box from -0.3 m to 0.9 m with cells of 0.1 m, full of water.
 template <int dim>
 struct Block : SoilScene<dim>
@@ -81,8 +70,7 @@ void test_places()
       expect(water[i].back(), 7., 1e-10, "velocity of the water");
     }
   for (unsigned int i = 4; i < 6; ++i)
-    AssertThrow(std::isnan(soil[i][0]) && std::isnan(water[i].back()), ExcMessage("There is no material."));
-  std::cout << dim << "D places: OK" << std::endl;
+    require(std::isnan(soil[i][0]) && std::isnan(water[i].back()), "There is no material.");
 }
 
 
@@ -104,14 +92,13 @@ void test_columns()
           expect(columns[i].thickness, 0.6, 1e-9, "thickness");
         }
       expect(columns[2].thickness, 0., 0., "thickness beside the block");
-      AssertThrow(std::isnan(columns[2].height), ExcMessage("There is no surface."));
+      require(std::isnan(columns[2].height), "There is no surface.");
 
       const auto [rear, front] = rear_and_front(lumps, 0.3, block.grid);
       expect(rear, -0.3, 1e-12, "rear");
       expect(front, 0.5, 1e-9, "front: half the thickness between the last column's centre and the next one's");
-      AssertThrow(std::isnan(rear_and_front(lumps, 0.7, block.grid).second), ExcMessage("It is nowhere as thick."));
+      require(std::isnan(rear_and_front(lumps, 0.7, block.grid).second), "It is nowhere as thick.");
     }
-  std::cout << dim << "D columns: OK" << std::endl;
 }
 
 
@@ -124,7 +111,6 @@ void test_wedge()
   expect(column.thickness, 0.3, 0.005, "thickness");
   expect(column.height, 0., 0.025, "height");
   expect(rear_and_front(lumps, 0.2, block.grid).second, 0.5, 0.01, "front");
-  std::cout << "wedge: OK" << std::endl;
 }
 
 
@@ -133,28 +119,25 @@ template <int dim>
 void test_ids()
 {
   Block<dim> block("x < 0.5 && y < 0.3");
-  auto &points     = block.bodies.back().points;
-  const auto slot  = block.water.back().layout.pressure; // keeps x at the start
-  const auto check = [&]() {
-    std::vector<double> keys; // of all ranks: number and start
+  auto &points        = block.bodies.back().points;
+  const auto slot     = block.water.back().layout.pressure; // keeps x at the start
+  const auto contents = [&]() {
+    std::map<types::particle_index, double> start_of; // of this rank
     for (unsigned int c = 0; c < points.cells().size(); ++c)
       {
         const auto ids = points.ids(c);
         AssertDimension(ids.size(), points.cells()[c].n_points);
         for (unsigned int p = 0; p < ids.size(); ++p)
-          keys.push_back(ids[p] + 1e-3 * points.cells()[c].properties_of(p)[slot]);
+          start_of[ids[p]] = points.cells()[c].properties_of(p)[slot];
       }
-    std::multiset<double> all;
-    for (const auto &of_rank : Utilities::MPI::all_gather(MPI_COMM_WORLD, keys))
+    std::map<types::particle_index, double> all;
+    for (const auto &of_rank : Utilities::MPI::all_gather(MPI_COMM_WORLD, start_of))
       all.insert(of_rank.begin(), of_rank.end());
-    std::set<long> numbers;
-    for (const double key : all)
-      numbers.insert(std::lround(std::floor(key + 0.5)));
-    AssertThrow(numbers.size() == all.size(), ExcMessage("Two points have one number."));
+    expect(all.size(), points.handler().n_global_particles(), 0., "number of different numbers");
     return all;
   };
   for_each_point(points, [&](const auto &point) { point.properties[slot] = point.location[0]; });
-  const auto before = check();
+  const auto before = contents();
   for (unsigned int step = 0; step < 6; ++step)
     {
       for_each_point(points, [&](const auto &point) {
@@ -163,8 +146,7 @@ void test_ids()
       });
       step % 3 == 2 ? points.sort() : points.hand_over();
     }
-  AssertThrow(check() == before, ExcMessage("Points have exchanged their numbers."));
-  std::cout << dim << "D numbers: OK" << std::endl;
+  require(contents() == before, "Points have exchanged their numbers.");
 }
 
 
@@ -182,12 +164,4 @@ void run()
 const UnitTest registered("output_probes", run);
 } // namespace test_output_probes
 
-
-// Output of mpirun=1,2:
-// 2D places: OK
-// 3D places: OK
-// 2D columns: OK
-// 3D columns: OK
-// wedge: OK
-// 2D numbers: OK
-// 3D numbers: OK
+// Runs with mpirun=1,2.

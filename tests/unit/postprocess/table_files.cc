@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // The files that a table grows in: names of columns in a .csv, rows before and after a resume; times in names of files.
-#include "../unit_test.h"
+#include "../test.h"
 
 #include <scree/io/run_folder.h>
 #include <scree/io/output_parameters.h>
@@ -11,14 +11,10 @@
 #include <boost/archive/text_oarchive.hpp>
 
 #include <filesystem>
-#include <iostream>
-#include <limits>
 #include <sstream>
 
 namespace test_table_files
 {
-using namespace scree;
-
 void print_names()
 {
   for (const std::string column : { "Time (s)",

@@ -2,19 +2,13 @@
 
 // The numbers of an advice that follow from those of a scene: groups against hand calculation, regimes over the
 // conductivity, cell sizes that divide the box, steps as the clock takes them, cost in proportion.
+#include "../test.h"
 
 #include <scree/advice/advise.h>
 #include <scree/advice/scene_numbers.h>
 
-#include <cmath>
-#include <iostream>
-
-#include "../unit_test.h"
-
 namespace test_advice_groups
 {
-using namespace scree;
-
 /// prm/consolidation/terzaghi.prm: c_v = 0.11326 m^2/s, drainage time 8.829 s, T_v = 1 at the end.
 SceneNumbers terzaghi()
 {
@@ -58,34 +52,41 @@ SceneNumbers slope()
 void test_groups()
 {
   const Groups column = groups_of(terzaghi());
-  std::cout << "Terzaghi: c_v " << column.consolidation_coefficient << " m^2/s, drainage time " << column.drainage_time
-            << " s, T_v " << column.time_factor << ", cells " << column.cells_over_height << '\n';
+  expect(column.consolidation_coefficient, 0.113263, 1e-6, "Terzaghi: c_v, m^2/s");
+  expect(column.drainage_time, 8.829, 1e-3, "Terzaghi: drainage time, s");
+  expect(column.time_factor, 1, 1e-4, "Terzaghi: T_v");
+  expect(column.cells_over_height, 20, 1e-9, "Terzaghi: cells over the height");
   // Q = n^2 rho_w g/k = 1.5696e6 N s/m^4; soil 1590, water 400 kg/m^3
-  std::cout << "  drag time over (1590 400/1990)/1.5696e6 s: " << column.drag_time / (1590. * 400. / 1990. / 1.5696e6)
-            << "; wave H/c over 1/sqrt(1.1111e6/1590): " << column.motion_time * std::sqrt(1e6 / 0.9 / 1590) << '\n';
+  expect(column.drag_time / (1590. * 400. / 1990. / 1.5696e6), 1, 1e-6, "Terzaghi: drag time");
+  expect(column.motion_time * std::sqrt(1e6 / 0.9 / 1590), 1, 1e-6, "Terzaghi: time H/c of a wave");
 
-  const SceneNumbers scene = slope();
-  const Groups groups      = groups_of(scene);
-  // M = 9.3333e6 Pa, rho = 1500 + 400 kg/m^3
-  std::cout << "Slope: sqrt(H/g) " << groups.motion_time << " s, rho g H/M in per mille " << 1e3 * groups.own_strain
-            << ", rho g H/G " << 1e3 * groups.shear_stress_ratio << ", Mach number in per cent "
-            << 100 * groups.mach_number << ", drainage over motion " << groups.drainage << '\n';
+  const Groups groups = groups_of(slope()); // M = 9.3333e6 Pa, rho = 1500 + 400 kg/m^3
+  expect(groups.motion_time, 0.451524, 1e-6, "Slope: sqrt(H/g), s");
+  expect(groups.own_strain, 3.99407e-3, 1e-8, "Slope: rho g H/M");
+  expect(groups.shear_stress_ratio, 9.3195e-3, 1e-8, "Slope: rho g H/G");
+  expect(groups.mach_number, 5.61535e-2, 1e-7, "Slope: Mach number");
+  expect(groups.drainage, 1.86227, 1e-5, "Slope: drainage over motion");
 
-  SceneNumbers dry = scene;
+  SceneNumbers dry = slope();
   dry.has_water    = false;
-  std::cout << "Dry: density " << dry.density() << ", drainage " << groups_of(dry).drainage << '\n';
+  expect(dry.density(), 1500, 0, "Dry: density");
+  expect(groups_of(dry).drainage, 0, 0, "Dry: drainage");
+}
+
+void expect_regime(const SceneNumbers &scene, const std::string &expected)
+{
+  require(name_of(regime_of(scene)) == expected,
+          "It is " + std::string(name_of(regime_of(scene))) + ", not " + expected);
 }
 
 void test_regimes()
 {
-  std::cout << "Regimes of the slope over k:";
   SceneNumbers scene = slope();
   for (int exponent = 1; exponent >= -9; exponent -= 2)
     {
       scene.conductivity = std::pow(10., exponent);
-      std::cout << " 1e" << exponent << ' ' << name_of(regime_of(scene));
+      expect_regime(scene, exponent < -6 ? "undrained" : "coupled");
     }
-  std::cout << '\n';
 
   // At the thresholds' own conductivities the regime of elastic soil changes.
   scene.end_time   = 0.01;
@@ -93,35 +94,32 @@ void test_regimes()
   for (const double threshold : { thresholds::drained_below, thresholds::undrained_above })
     {
       scene.conductivity = conductivity_for(slope(), threshold);
-      std::cout << "At the threshold: drainage over threshold " << groups_of(scene).drainage / threshold << ',';
-      for (const double factor : { 1.01, 0.99 })
-        {
-          SceneNumbers beside = scene;
-          beside.conductivity = factor * scene.conductivity;
-          std::cout << ' ' << name_of(regime_of(beside));
-        }
-      std::cout << '\n';
+      expect(groups_of(scene).drainage / threshold, 1, 1e-12, "drainage at the threshold");
+      SceneNumbers beside = scene;
+      beside.conductivity = 1.01 * scene.conductivity;
+      expect_regime(beside, threshold == thresholds::drained_below ? "drained" : "coupled");
+      beside.conductivity = 0.99 * scene.conductivity;
+      expect_regime(beside, threshold == thresholds::drained_below ? "coupled" : "undrained");
     }
   // Undrained in its motion, but the run lasts until the pressure leaves.
   scene.conductivity /= 2;
   scene.end_time = 100;
-  std::cout << "The same for 100 s: " << name_of(regime_of(scene)) << '\n';
+  expect_regime(scene, "coupled");
 
-  SceneNumbers dry   = slope();
-  dry.has_water      = false;
-  SceneNumbers water = slope();
-  water.has_soil     = false;
-  std::cout << "Without water: " << name_of(regime_of(dry)) << "; without soil: " << name_of(regime_of(water)) << '\n';
+  SceneNumbers dry = slope(), water = slope();
+  dry.has_water = water.has_soil = false;
+  expect_regime(dry, "dry");
+  expect_regime(water, "water alone");
 
-  const auto points = [](const SceneNumbers &scene) {
-    return point_sets_for(regime_of(scene), scene).sets == PointSets::double_point ? "double" : "single";
+  SceneNumbers reservoir = terzaghi(), tight = slope();
+  reservoir.water_fills_soil     = false;
+  tight.conductivity             = 1e-9;
+  const auto has_points_of_water = [](const SceneNumbers &scene) {
+    return point_sets_for(regime_of(scene), scene).sets == PointSets::double_point;
   };
-  SceneNumbers reservoir     = terzaghi();
-  reservoir.water_fills_soil = false;
-  SceneNumbers tight         = slope();
-  tight.conductivity         = 1e-9;
-  std::cout << "Points of water: slope " << points(slope()) << ", tight slope " << points(tight) << ", Terzaghi "
-            << points(terzaghi()) << ", with a reservoir " << points(reservoir) << '\n';
+  require(has_points_of_water(slope()) && !has_points_of_water(tight) && !has_points_of_water(terzaghi()) &&
+              has_points_of_water(reservoir),
+          "points of water");
 }
 
 void test_resolution()
@@ -129,57 +127,53 @@ void test_resolution()
   for (const SceneNumbers &scene : { slope(), terzaghi() })
     {
       const ErrorLaw law = error_law_of(scene);
-      std::cout << "Error " << law.measure << ": law and its inverse " << law.error(law.cells_over_height(0.02)) / 0.02
-                << ", halved cells " << law.error(20) / law.error(40) << '\n';
+      expect(law.error(law.cells_over_height(0.02)), 0.02, 1e-12, law.measure + ": law and its inverse");
+      expect(law.error(20) / law.error(40), scene.is_elastic ? 4 : 2, 1e-12, law.measure + ": gain of halved cells");
     }
   SceneNumbers cyclic = terzaghi(), reservoir = terzaghi(), early = terzaghi(), dam = slope(), still = slope(),
-               level = slope(), dry = slope(), tight = slope();
-  dry.has_water              = false;
-  SceneNumbers held          = dry;
-  held.sticks                = true;
-  SceneNumbers held_slope    = slope();
-  held_slope.sticks          = true;
-  tight.conductivity         = 1e-9;
+               level = slope(), dry = slope(), tight = slope(), held_slope = slope();
   cyclic.has_changing_forces = true;
   reservoir.water_fills_soil = false;
-  early.end_time             = 0.5;
+  early.end_time             = 0.5; // before T_v = 0.1
   dam.has_soil = still.has_soil = false;
   still.fall = level.fall = 0;
-  std::cout
-      << "Error of a dry slope with 20 and 30 cells over its height, in per cent; on a fixed base 19 and 12 measured: "
-      << 100 * error_law_of(held).error(20) << ", " << 100 * error_law_of(held).error(30)
-      << "; with friction 7.7 at 20: " << 100 * error_law_of(dry).error(20) << '\n';
-  std::cout << "Whether finer cells help: slope " << error_law_of(slope()).remedy.empty() << ", on a fixed base, dry, "
-            << error_law_of(held).remedy.empty() << ", tight slope " << error_law_of(tight).remedy.empty() << '\n';
-  std::cout << "Whether the error is known: dry slope " << error_law_of(dry).gap.empty() << ", slope "
-            << error_law_of(slope()).gap.empty() << ", on a fixed base " << error_law_of(held_slope).gap.empty()
-            << ", tight slope " << error_law_of(tight).gap.empty() << ", dam " << error_law_of(dam).gap.empty()
-            << ", Terzaghi " << error_law_of(terzaghi()).gap.empty() << "; cyclic load "
-            << error_law_of(cyclic).gap.empty() << ", reservoir " << error_law_of(reservoir).gap.empty()
-            << ", before T_v = 0.1 " << error_law_of(early).gap.empty() << ", still water "
-            << error_law_of(still).gap.empty() << ", level soil " << error_law_of(level).gap.empty() << '\n';
-  std::cout << "Promised for Terzaghi in 200 cells over the least that was measured: "
-            << error_law_of(terzaghi()).error(200) / ErrorLaw::smallest << "; Courant number beside a reservoir "
-            << time_step_for(reservoir, TimeStepParameters()).courant_number << '\n';
-  GridParameters grid;
-  grid.lower_corner = { 0, 0 };
-  grid.upper_corner = { 10, 2.5 };
-  grid.cell_size    = 0.05;
-  for (const double cells : { 1., 20., 46., 115. })
+  dry.has_water           = false;
+  tight.conductivity      = 1e-9;
+  held_slope.sticks       = true; // on a fixed base
+  SceneNumbers held       = dry;
+  held.sticks             = true;
+  // Measured: 19 and 12 % on a fixed base, 7.7 % with friction.
+  expect(error_law_of(held).error(20), 0.19, 1e-12, "error of a dry slope on a fixed base, 20 cells");
+  expect(error_law_of(held).error(30), 0.126667, 1e-6, "error of a dry slope on a fixed base, 30 cells");
+  expect(error_law_of(dry).error(20), 0.08, 1e-12, "error of a dry slope with friction, 20 cells");
+  const auto refines = [](const SceneNumbers &scene) { return error_law_of(scene).remedy.empty(); };
+  require(refines(slope()) && !refines(held) && !refines(tight), "whether finer cells help");
+  const auto knows = [](const SceneNumbers &scene) { return error_law_of(scene).gap.empty(); };
+  require(knows(dry) && knows(slope()) && knows(dam) && knows(terzaghi()), "the error of these scenes is known");
+  require(!knows(held_slope) && !knows(tight) && !knows(cyclic) && !knows(reservoir) && !knows(early) &&
+              !knows(still) && !knows(level),
+          "the error of these scenes is not known");
+  expect(error_law_of(terzaghi()).error(200), ErrorLaw::smallest, 1e-15, "least error, which was measured");
+
+  GridParameters grid = grid_box(0, { 10, 2.5 }, 0.05);
+  for (const auto &[cells, over_height] :
+       std::vector<std::pair<double, double>>{ { 1, 10.4 }, { 20, 20 }, { 46, 46.4 }, { 115, 115.2 } })
     {
       const double size = cell_size_for(grid, 2, cells);
-      std::cout << "At least " << cells << " cells over 2 m: " << 2 / size << "; over the box " << 10 / size << " x "
-                << 2.5 / size << '\n';
+      expect(2 / size, over_height, 1e-9, "cells over the height, at least " + std::to_string(cells));
+      expect(10 / size, std::round(10 / size), 1e-9, "cells along the box");
+      expect(2.5 / size, std::round(2.5 / size), 1e-9, "cells over the box");
     }
-  grid.upper_corner = { 0.7, 1.3 };
-  grid.cell_size    = 0.1;
-  std::cout << "A box of 7 x 13 cells, at least 25 over 1 m: " << 1 / cell_size_for(grid, 1, 25) << '\n';
-  TimeStepParameters step;
+  grid = grid_box(0, { 0.7, 1.3 });
+  expect(1 / cell_size_for(grid, 1, 25), 30, 1e-9, "a box of 7 x 13 cells, at least 25 over 1 m");
+
+  const TimeStepParameters step;
+  expect(time_step_for(slope(), step).courant_number, 0.6, 0, "Courant number of a slope");
+  expect(time_step_for(terzaghi(), step).courant_number, 0.9, 0, "Courant number of Terzaghi");
+  expect(time_step_for(reservoir, step).courant_number, 0.6, 0, "Courant number beside a reservoir");
   SceneNumbers water = slope();
   water.has_soil     = false;
-  std::cout << "Courant number: slope " << time_step_for(slope(), step).courant_number << ", Terzaghi "
-            << time_step_for(terzaghi(), step).courant_number << "; step of free water over cell "
-            << time_step_for(water, step).maximum_time_step / water.cell_size << '\n';
+  expect(time_step_for(water, step).maximum_time_step / water.cell_size, 0.04, 1e-12, "step of free water over cell");
 }
 
 /// Steps of a clock that always may take `step`.
@@ -221,10 +215,9 @@ void test_cost()
   const SceneNumbers column = terzaghi();
   const Observation start   = seen(column);
   const RunCost cost        = cost_of_run(column, start, schedule);
-  std::cout << "Terzaghi: step over 0.6 h/c " << cost.first_step / (0.6 * 0.05 / column.fastest.speed())
-            << ", steps over the clock's " << cost.n_steps / clock_steps(schedule, column.end_time, cost.first_step)
-            << ", seconds of steps over steps times step " << cost.step_seconds / cost.n_steps / start.first.seconds
-            << '\n';
+  expect(cost.first_step / (0.6 * 0.05 / column.fastest.speed()), 1, 1e-6, "Terzaghi: step over 0.6 h/c");
+  expect(cost.n_steps / clock_steps(schedule, column.end_time, cost.first_step), 1, 1e-6, "steps over the clock's");
+  expect(cost.step_seconds / cost.n_steps / start.first.seconds, 1, 1e-6, "seconds of steps over steps times step");
 
   // A pilot with a quarter of the points: its solve takes three times as long later, its sort, of which it saw nothing
   // at first, 2e-5 s; waves are twice as fast in the second half.
@@ -239,25 +232,27 @@ void test_cost()
   pilot.intervals         = { { column.end_time / 2, wave, 0. }, { column.end_time / 2, 2 * wave, 0. } };
   const Observation whole = with_pilot(start, pilot);
   const RunCost of_whole  = cost_of_run(column, whole, schedule);
-  std::cout << "With a pilot: law " << whole.later.seconds_of(TimerSection::stress) / 5e-4 << ", solve "
-            << whole.later.seconds_of(TimerSection::pressure_solve) / 2e-4 << ", sort "
-            << whole.later.seconds_of(TimerSection::sort) / 2e-5 << " times; steps over the first guess "
-            << std::round(100 * of_whole.n_steps / cost.n_steps) / 100 << ", seconds of later steps "
-            << (of_whole.step_seconds - 10 * whole.first.seconds) / (of_whole.n_steps - 10) / whole.later.seconds
-            << '\n';
+  expect(whole.later.seconds_of(TimerSection::stress) / 5e-4, 1, 1e-9, "with a pilot: law");
+  expect(whole.later.seconds_of(TimerSection::pressure_solve) / 2e-4, 3, 1e-9, "with a pilot: solve");
+  expect(whole.later.seconds_of(TimerSection::sort) / 2e-5, 4, 1e-9, "with a pilot: sort");
+  expect(of_whole.n_steps / cost.n_steps, 1.5, 5e-3, "with a pilot: steps over the first guess");
+  expect((of_whole.step_seconds - 10 * whole.first.seconds) / (of_whole.n_steps - 10) / whole.later.seconds,
+         1,
+         1e-6,
+         "with a pilot: seconds of later steps");
 
   SceneNumbers block         = slope();
   block.dim                  = 3;
   const SceneNumbers finer   = with_cell_size(block, 0.025);
   const Observation of_block = seen(block), of_finer = with_cell_size(of_block, block, 0.025);
-  std::cout << "Halved cells in 3D: points " << finer.n_points() / block.n_points() << ", time of a step "
-            << of_finer.later.seconds / of_block.later.seconds << ", steps "
-            << std::round(cost_of_run(finer, of_finer, schedule).n_steps /
-                          cost_of_run(block, of_block, schedule).n_steps)
-            << '\n';
+  expect(finer.n_points() / block.n_points(), 8, 1e-12, "halved cells in 3D: points");
+  expect(of_finer.later.seconds / of_block.later.seconds, 8, 1e-9, "halved cells in 3D: time of a step");
+  expect(cost_of_run(finer, of_finer, schedule).n_steps / cost_of_run(block, of_block, schedule).n_steps,
+         2,
+         0.5,
+         "halved cells in 3D: steps");
   // All of the law, half of the transfer and the sort, nothing of the pressure.
-  std::cout << "Soil without its water: " << without_water(start, column).later.seconds / start.later.seconds
-            << " of the cost of a step\n";
+  expect(without_water(start, column).later.seconds / start.later.seconds, 0.65, 1e-9, "soil without its water");
 }
 
 void run()
@@ -270,33 +265,3 @@ void run()
 
 const UnitTest registered("advice_groups", run);
 } // namespace test_advice_groups
-
-
-// clang-format off
-// Output:
-// Terzaghi: c_v 0.113263 m^2/s, drainage time 8.829 s, T_v 1, cells 20
-//   drag time over (1590 400/1990)/1.5696e6 s: 1; wave H/c over 1/sqrt(1.1111e6/1590): 1
-// Slope: sqrt(H/g) 0.451524 s, rho g H/M in per mille 3.99407, rho g H/G 9.3195, Mach number in per cent 5.61535, drainage over motion 1.86227
-// Dry: density 1500, drainage 0
-// Regimes of the slope over k: 1e1 coupled 1e-1 coupled 1e-3 coupled 1e-5 coupled 1e-7 undrained 1e-9 undrained
-// At the threshold: drainage over threshold 1, drained coupled
-// At the threshold: drainage over threshold 1, coupled undrained
-// The same for 100 s: coupled
-// Without water: dry; without soil: water alone
-// Points of water: slope double, tight slope single, Terzaghi single, with a reservoir double
-// Error of the run-out: law and its inverse 1, halved cells 2
-// Error of stress and pressure: law and its inverse 1, halved cells 4
-// Error of a dry slope with 20 and 30 cells over its height, in per cent; on a fixed base 19 and 12 measured: 19, 12.6667; with friction 7.7 at 20: 8
-// Whether finer cells help: slope 1, on a fixed base, dry, 0, tight slope 0
-// Whether the error is known: dry slope 1, slope 1, on a fixed base 0, tight slope 0, dam 1, Terzaghi 1; cyclic load 0, reservoir 0, before T_v = 0.1 0, still water 0, level soil 0
-// Promised for Terzaghi in 200 cells over the least that was measured: 1; Courant number beside a reservoir 0.6
-// At least 1 cells over 2 m: 10.4; over the box 52 x 13
-// At least 20 cells over 2 m: 20; over the box 100 x 25
-// At least 46 cells over 2 m: 46.4; over the box 232 x 58
-// At least 115 cells over 2 m: 115.2; over the box 576 x 144
-// A box of 7 x 13 cells, at least 25 over 1 m: 30
-// Courant number: slope 0.6, Terzaghi 0.9; step of free water over cell 0.04
-// Terzaghi: step over 0.6 h/c 1, steps over the clock's 1, seconds of steps over steps times step 1
-// With a pilot: law 1, solve 3, sort 4 times; steps over the first guess 1.5, seconds of later steps 1
-// Halved cells in 3D: points 8, time of a step 8, steps 2
-// Soil without its water: 0.65 of the cost of a step

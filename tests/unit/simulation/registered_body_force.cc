@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A body force of one file: registered here, its entries are declared with the others, and it acts on the nodes.
-#include "../unit_test.h"
+#include "../test.h"
 
 #include <scree/boundary/body_forces.h>
 
-#include <iostream>
-
 namespace test_registered_body_force
 {
-using namespace dealii;
-using namespace scree;
-
 /// A centrifuge that turns about the origin: rate^2 x.
 template <int dim>
 class Centrifuge : public BodyForce<dim>
@@ -73,19 +68,15 @@ const RegisterBodyForce<CentrifugeEntries> registered("Centrifuge");
 
 void run()
 {
-  GridParameters box;
-  box.lower_corner.assign(2, 0.);
-  box.upper_corner.assign(2, 0.4);
-  const BackgroundGrid<2> grid(box, MPI_COMM_WORLD);
+  const BackgroundGrid<2> grid(grid_box<2>(0., 0.4), MPI_COMM_WORLD);
   BodyForceParameters parameters;
   ParameterHandler prm;
   parameters.add_parameters(prm);
-  std::cout << parameters.is_set();
+  require(!parameters.is_set(), "No body force is set.");
   prm.parse_input_from_string("set Body force = x; t\nsubsection Centrifuge\n set Rate = 3\nend");
   parameters.check(2);
-  std::cout << ' ' << parameters.is_set() << '\n';
+  require(parameters.is_set(), "Two body forces are set.");
   BodyForces<2> forces(grid, { 0., -10. }, parameters);
-  double largest_error = 0.;
   for (const bool is_released : { false, true })
     {
       is_released ? forces.set_step(2., 0.1) : forces.set_start();
@@ -93,16 +84,10 @@ void run()
         {
           const Point<2> x            = grid.node_position(node);
           const Tensor<1, 2> expected = is_released ? Point<2>(10. * x[0], 9. * x[1] - 8.) : Point<2>(x[0], -10.);
-          largest_error               = std::max(largest_error, (forces.acceleration(node) - expected).norm());
+          expect((forces.acceleration(node) - expected).norm(), 0., 1e-13, "error of the acceleration");
         }
     }
-  std::cout << "largest error " << largest_error << '\n';
 }
 
 const UnitTest registered_test("registered_body_force", run);
 } // namespace test_registered_body_force
-
-
-// Output:
-// 0 1
-// largest error 0

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Velocities of water points with the porosity of their own place, for every transfer, on one rank and on two:
+// Velocities of water points with the porosity of their own place, for every transfer:
 // - soil and water lie anyhow and nodes move at random: the points' momentum is that of the nodes (FLIP, AFLIP:
 //   its change);
 // - a flux U that is the same in free water and in soil with a sharp face: points that move with U/n_p come from the
@@ -8,27 +8,13 @@
 // - soil that has just crossed a face of cells, whose nodes beyond it have no mass to speak of and any velocity: water
 //   there does not take it;
 // - uniform porosity gives the velocity of the nodes to rounding, water without soil gives it to the last digit.
+#include "../soil.h"
 
-#include "../elastic_soil.h"
-#include "../grid_box.h"
-#include "../pattern.h"
 
-#include <scree/materials/table.h>
-#include <scree/seeding/seeding.h>
 #include <scree/transfer/water_transfer.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <cmath>
-#include <iostream>
-
-#include "../unit_test.h"
 
 namespace test_water_pore_velocity
 {
-using namespace dealii;
-using namespace scree;
-
 namespace
 {
   constexpr double time_step = 1.; // s: displacements of the size of velocities
@@ -132,12 +118,6 @@ namespace
     NodalField<dim> soil_field, water_field, excess;
   };
 
-  std::string bounded(const double value, const double bound)
-  {
-    const double largest = Utilities::MPI::max(value, MPI_COMM_WORLD);
-    return largest <= bound ? "OK" : "WRONG by " + Utilities::to_string(largest);
-  }
-
   /// Points' momentum less the nodes', over the sum of its parts' size.
   template <int dim>
   double momentum_error(const std::string &basis, const std::string &method)
@@ -239,16 +219,16 @@ namespace
   template <int dim>
   void test()
   {
+    const std::string of = std::to_string(dim) + "D: error of ";
     for (const std::string method : { "FLIP", "TPIC", "AFLIP" })
       {
-        std::cout << dim << "D " << method << ": momentum " << bounded(momentum_error<dim>("spline", method), 1e-14);
-        if (method != "FLIP" && method != "AFLIP") // keep the points' own velocity
-          std::cout << ", flux through a face " << bounded(flux_error<dim>(method), 1e-13);
-        std::cout << ", uniform soil " << bounded(plain_error<dim>(method, "x < 1"), 1e-14) << ", no soil "
-                  << bounded(plain_error<dim>(method, "none"), 0.) << std::endl;
+        expect(momentum_error<dim>("spline", method), 0., 1e-14, of + "the momentum, " + method);
+        if (method == "TPIC") // the others keep the points' own velocity
+          expect(flux_error<dim>(method), 0., 1e-13, of + "the flux through a face, " + method);
+        expect(plain_error<dim>(method, "x < 1"), 0., 1e-14, of + "the velocity in uniform soil, " + method);
+        expect(plain_error<dim>(method, "none"), 0., 0., of + "the velocity without soil, " + method);
       }
-    std::cout << dim << "D linear basis: momentum " << bounded(momentum_error<dim>("linear", "TPIC"), 1e-14)
-              << std::endl;
+    expect(momentum_error<dim>("linear", "TPIC"), 0., 1e-14, of + "the momentum, linear basis");
   }
 } // namespace
 
@@ -262,13 +242,4 @@ void run()
 const UnitTest registered("water_pore_velocity", run);
 } // namespace test_water_pore_velocity
 
-
-// Output of mpirun=1,2:
-// 2D FLIP: momentum OK, uniform soil OK, no soil OK
-// 2D TPIC: momentum OK, flux through a face OK, uniform soil OK, no soil OK
-// 2D AFLIP: momentum OK, uniform soil OK, no soil OK
-// 2D linear basis: momentum OK
-// 3D FLIP: momentum OK, uniform soil OK, no soil OK
-// 3D TPIC: momentum OK, flux through a face OK, uniform soil OK, no soil OK
-// 3D AFLIP: momentum OK, uniform soil OK, no soil OK
-// 3D linear basis: momentum OK
+// Runs with mpirun=1,2.

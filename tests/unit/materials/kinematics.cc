@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// What all laws share: principal values, axes and logarithmic strain of b = I + small, also where principal values
+// coincide; energy is the potential of the stress; plane strain is three dimensions without the third; the stress turns
+// with the observer; motions and starts that cannot be are refused.
+#include "one_point.h"
+
+#include <scree/materials/laws/mohr_coulomb.h>
+#include <scree/materials/laws/nor_sand.h>
+#include <scree/materials/table.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/physics/transformations.h>
+
+namespace test_kinematics
+{
+using Physics::Transformations::Rotations::rotation_matrix_3d;
+
+template <int dim>
+void test_principal_values(RandomNumbers &random)
+{
+  double strain_error = 0, composition_error = 0;
+  for (unsigned int i = 0; i < 200000; ++i)
+    {
+      const double size = random.log_uniform(1e-12, 1e-1);
+      PrincipalValues strain;
+      for (double &value : strain)
+        value = size * random.uniform(-1, 1);
+      if (i % 3 == 0)
+        strain[1] = strain[0]; // Coincident.
+      if (i % 9 == 0)
+        strain[2] = strain[0] + 1e-15;
+
+      Tensor<2, 3> Q = rotation_matrix_3d(Tensor<1, 3>({ 0., 0., 1. }), random.uniform(0, numbers::PI)), b;
+      if (dim == 3)
+        Q = Q * rotation_matrix_3d(Tensor<1, 3>({ 1., 0., 0. }), random.uniform(0, numbers::PI));
+      for (unsigned int k = 0; k < 3; ++k)
+        for (unsigned int r = 0; r < 3; ++r)
+          for (unsigned int c = 0; c < 3; ++c)
+            b[r][c] += std::exp(2 * strain[k]) * Q[r][k] * Q[c][k];
+      const double components[6] = { b[0][0], b[1][1], b[2][2], b[0][1], b[0][2], b[1][2] };
+
+      const PrincipalFrame<dim> frame(components);
+      PrincipalValues found = log_strain(frame.values());
+      double again[6];
+      left_cauchy_green_of(frame, found, again);
+      for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
+        composition_error = std::max(composition_error, std::abs(again[c] - components[c]));
+      std::sort(found.begin(), found.end());
+      std::sort(strain.begin(), strain.end());
+      strain_error = std::max(strain_error, largest_difference(found, strain));
+    }
+  require(strain_error < 5e-15, "Logarithmic strain is wrong by " + std::to_string(strain_error * 1e15) + "e-15.");
+  require(composition_error < 1e-14, "Composition is wrong by " + std::to_string(composition_error * 1e15) + "e-15.");
+}
+
+
+template <typename Law>
+void test_potential(const std::string &name, const Law &law, const PrincipalValues &mean, RandomNumbers &random)
+{
+  constexpr double difference = 1e-6;
+  double largest_error        = 0;
+  for (unsigned int i = 0; i < 1000; ++i)
+    {
+      PrincipalValues strain = mean, stress;
+      for (double &value : strain)
+        value += 2e-4 * random.uniform(-1, 1);
+      double internal[2]          = { 1e9, 0 }; // A yield surface far away.
+      PrincipalValues same_strain = strain;
+      UpdateReport report;
+      require(!return_point(law, same_strain, internal, 1, stress, report), "The state should be elastic.");
+      const double scale = std::abs(stress[0]) + std::abs(stress[1]) + std::abs(stress[2]);
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          PrincipalValues more = strain, less = strain;
+          more[k] += difference;
+          less[k] -= difference;
+          const double slope = (law.energy(more) - law.energy(less)) / (2 * difference);
+          largest_error      = std::max(largest_error, std::abs(slope - stress[k]) / scale);
+        }
+    }
+  expect(largest_error, 0, 1e-6, name + ": slope of the energy less the stress");
+}
+
+
+/// A point of a material and its path.
+template <int dim>
+struct PointOfMaterial
+{
+  std::unique_ptr<Material<dim>> material;
+  double left_cauchy_green[6], stress[6], internal[4] = {}, J = 1;
+  UpdateReport report;
+
+  PointOfMaterial(const std::string &law, const double vertical, const double lateral)
+  {
+    MaterialParameters parameters;
+    parameters.law        = law;
+    material              = make_material<dim>(parameters);
+    const double start[6] = { lateral, vertical, lateral, 0, 0, 0 };
+    material->initialise(start, left_cauchy_green, stress, internal);
+  }
+
+  void update(const Tensor<2, dim> &increment, const double stretch = 1)
+  {
+    const double one = 1;
+    J *= stretch * determinant(increment);
+    material->update({ 1, 0, left_cauchy_green, stress, internal }, { &increment[0][0], &stretch, &J, &one }, report);
+  }
+};
+
+
+void test_plane_strain(const std::string &law, const bool has_substeps, RandomNumbers &random)
+{
+  PointOfMaterial<2> plane(law, -1e4, -8e3);
+  PointOfMaterial<3> solid(law, -1e4, -8e3);
+  double largest_error = 0;
+  for (unsigned int step = 0; step < 1000; ++step)
+    {
+      Tensor<2, 2> in_plane;
+      Tensor<2, 3> full;
+      for (unsigned int i = 0; i < 2; ++i)
+        for (unsigned int j = 0; j < 2; ++j)
+          full[i][j] = in_plane[i][j] = (i == j ? 1 : 0) + 3e-3 * random.uniform(-1, 1) + (i < j ? 1e-3 : 0);
+      full[2][2] = 1 + 1e-3 * random.uniform(-1, 1);
+      plane.update(in_plane, full[2][2]);
+      solid.update(full);
+      double scale = 1;
+      for (unsigned int c = 0; c < 4; ++c)
+        scale = std::max(scale, std::abs(plane.stress[c]));
+      for (unsigned int c = 0; c < 4; ++c)
+        largest_error = std::max(largest_error, std::abs(plane.stress[c] - solid.stress[c]) / scale);
+    }
+  require(plane.report.n_substeps == solid.report.n_substeps, law + ": sub-steps differ");
+  require((plane.report.n_substeps > 1000) == has_substeps, law + ": sub-steps");
+  expect(largest_error, 0, 1e-8, law + ": plane strain less 3D");
+}
+
+
+Tensor<2, 3> matrix(const double *t)
+{
+  Tensor<2, 3> result;
+  constexpr unsigned int rows[6] = { 0, 1, 2, 0, 0, 1 }, columns[6] = { 0, 1, 2, 1, 2, 2 };
+  for (unsigned int c = 0; c < 6; ++c)
+    result[rows[c]][columns[c]] = result[columns[c]][rows[c]] = t[c];
+  return result;
+}
+
+
+/// A path seen by an observer who turns by `angle` a step.
+void test_objectivity(const std::string &law,
+                      const double angle,
+                      const double strain,
+                      const unsigned int n_substeps,
+                      const double bound)
+{
+  PointOfMaterial<3> still(law, -1e4, -7e3), turning(law, -1e4, -7e3);
+  Tensor<2, 3> before = unit_symmetric_tensor<3>();
+  double largest      = 0;
+  for (unsigned int step = 1; step <= 500; ++step)
+    {
+      Tensor<2, 3> increment = unit_symmetric_tensor<3>();
+      increment[0][1]        = strain;
+      increment[1][1] += 0.02 * strain;
+      increment[2][0]        = 0.3 * strain;
+      const Tensor<2, 3> now = rotation_matrix_3d(Tensor<1, 3>({ 0.6, 0., 0.8 }), step * angle);
+      still.update(increment);
+      turning.update(now * increment * transpose(before));
+      before                    = now;
+      const Tensor<2, 3> wanted = now * matrix(still.stress) * transpose(now);
+      largest                   = std::max(largest, (matrix(turning.stress) - wanted).norm() / wanted.norm());
+    }
+  expect(largest, 0, bound, law + ": difference of the observers' stresses");
+  expect(still.report.n_substeps + turning.report.n_substeps, n_substeps, 0, law + ": number of sub-steps");
+}
+
+
+template <int dim>
+void test_motions(const std::string &law)
+{
+  PointOfMaterial<dim> point(law, -1e4, -8e3);
+  const auto refused = [&](const double component, const double J) {
+    Tensor<2, dim> increment = unit_symmetric_tensor<dim>();
+    increment[0][0]          = component;
+    expect_refusal(
+        [&] {
+          point.J = J / determinant(increment);
+          point.update(increment);
+        },
+        "cannot follow",
+        law + " at " + std::to_string(component) + ", " + std::to_string(J));
+  };
+  refused(std::numeric_limits<double>::quiet_NaN(), 1);
+  refused(-0.1, 1); // inside out
+  refused(1, 0);    // no volume
+  if (law.rfind("Nor-Sand", 0) == 0)
+    refused(3, 1); // beyond all sub-steps
+}
+
+
+void run()
+{
+  RandomNumbers random;
+  test_principal_values<2>(random);
+  test_principal_values<3>(random);
+
+  const MaterialParameters parameters;
+  test_potential(
+      "linear elastic", LinearElastic(parameters.of<LinearElasticParameters>()), { { 0.01, -0.02, 0.015 } }, random);
+  test_potential(
+      "Mohr-Coulomb", MohrCoulomb(parameters.of<MohrCoulombParameters>()), { { -0.01, -0.01, -0.01 } }, random);
+  test_potential("Nor-Sand", NorSand(parameters.of<NorSandParameters>()), { { -2e-3, -2e-3, -2e-3 } }, random);
+
+  for (const std::string law : { "linear elastic", "Mohr-Coulomb", "Nor-Sand" })
+    {
+      test_plane_strain(law, law == "Nor-Sand", random);
+      test_objectivity(law, 7e-4, 2e-4, 1000, 1e-9); // one sub-step an update
+      if (law != "Nor-Sand")
+        test_objectivity(law, 0.1, 2e-4, 1000, 1e-9);
+    }
+  // The same number of sub-steps for both observers. Those of the second follow the chord of its turn, not the arc.
+  test_objectivity("Nor-Sand", 4e-4, 2.5e-3, 3000, 1e-4);
+
+  for (const std::string law : { "linear elastic", "Mohr-Coulomb", "Nor-Sand", "Nor-Sand (Jefferies-Been)" })
+    {
+      test_motions<2>(law);
+      test_motions<3>(law);
+    }
+  for (const std::string law : { "Nor-Sand", "Nor-Sand (Jefferies-Been)" })
+    {
+      expect_refusal([&] { PointOfMaterial<2>(law, 1e3, 1e3); }, "tension", law + " under tension");
+      expect_refusal([&] { PointOfMaterial<2>(law, -1e4, -1e2); }, "K0", law + " with a small K0");
+    }
+  expect_refusal([] { PointOfMaterial<2>("Mohr-Coulomb", -1e4, -3e3); }, "K0", "Mohr-Coulomb with a small K0");
+}
+
+const UnitTest registered("kinematics", run);
+} // namespace test_kinematics

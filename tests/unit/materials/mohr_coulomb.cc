@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Mohr-Coulomb: random returns lie on the yield surface and dilate as the dilation angle says; softening soil has the
+// strength of each point, and that of the law without softening as long as nothing falls; what opens at the vertex or
+// at a cut-off is kept and closed without a change of energy. Strength of direct shear, and divided by a factor; pure
+// shear against tau = c(gamma - tau/G); steady shear at a given rate against tau/p = mu_s + Delta mu/(1 + I_0/I).
+#include "one_point.h"
+
+#include <scree/materials/laws/tresca.h>
+
+#include <numeric>
+
+namespace test_mohr_coulomb
+{
+/// Derivative of the energy along principal axis k, over +- `step`, Pa; exact but where the axis opens or closes.
+double energy_slope(const MohrCoulomb &law, const PrincipalValues &strain, const unsigned int k, const double step)
+{
+  PrincipalValues more = strain, less = strain;
+  more[k] += step;
+  less[k] -= step;
+  return (law.energy(more) - law.energy(less)) / (2 * step);
+}
+
+
+/// On faces and edges the plastic volume strain is sin psi times the sum of the sizes of the principal plastic strains.
+double dilation_error(const PrincipalValues &trial, const PrincipalValues &strain, const double sine)
+{
+  double volume = 0, size = 0;
+  for (unsigned int k = 0; k < 3; ++k)
+    {
+      volume += trial[k] - strain[k];
+      size += std::abs(trial[k] - strain[k]);
+    }
+  return std::abs(volume - sine * size);
+}
+
+
+void test_random(const std::string &name, const MohrCoulombParameters &parameters, RandomNumbers &random)
+{
+  const MohrCoulomb law(parameters);
+  const double bulk = law.bulk_modulus(0), shear = law.shear_modulus();
+  const double sine    = std::sin(parameters.dilation_angle * numbers::PI / 180);
+  double largest_yield = 0, largest_again = 0, largest_dilation = 0, largest_stress_error = 0, largest_open_error = 0;
+  unsigned int n_elastic = 0, n_faces = 0, n_vertices = 0;
+  UpdateReport report;
+  random_returns(
+      name,
+      law,
+      random,
+      1000,
+      [&](const auto &) { return parameters.cohesion; },
+      [&](RandomReturn &point) {
+        n_elastic += !point.is_plastic;
+        n_vertices += point.is_at_vertex;
+        largest_yield = std::max(largest_yield, law.yield(point.stress) / point.scale);
+        require(point.internal[0] >= 0, name + ": plastic shear strain is negative");
+        if (point.is_at_vertex)
+          return;
+
+        // The returned stress is that of the returned strain, open or not, and returns to itself.
+        const double largest  = *std::max_element(point.stress.begin(), point.stress.end());
+        const bool on_cut_off = largest > parameters.tension_cut_off - 1e-3 * point.scale;
+        const double volume   = point.strain[0] + point.strain[1] + point.strain[2];
+        for (unsigned int k = 0; k < 3; ++k)
+          {
+            const double elastic = bulk * volume + 2 * shear * (point.strain[k] - volume / 3);
+            const double slope   = on_cut_off ? energy_slope(law, point.strain, k, 1e-4 * point.size) : elastic;
+            double &error        = on_cut_off ? largest_open_error : largest_stress_error;
+            error                = std::max(error, std::abs(slope - point.stress[k]) / point.scale);
+          }
+        PrincipalValues again = point.strain, again_stress;
+        return_point(law, again, point.internal, 1, again_stress, report);
+        largest_again = std::max(largest_again, largest_difference(again_stress, point.stress) / point.scale);
+        if (point.is_plastic && !on_cut_off)
+          {
+            ++n_faces;
+            largest_dilation = std::max(largest_dilation, dilation_error(point.trial, point.strain, sine) / point.size);
+          }
+      });
+  expect(largest_yield, 0, 1e-10, name + ": yield");
+  expect(largest_again, 0, 1e-10, name + ": a returned stress returns elsewhere, by what");
+  expect(largest_stress_error, 0, 1e-10, name + ": stress is not that of the strain, by what");
+  expect(largest_open_error, 0, 2e-4, name + ": difference of energy and stress of soil that is open");
+  expect(largest_dilation, 0, 1e-10, name + ": error of dilation");
+  require(n_elastic > 1000 && n_faces > 1000 && n_vertices > 1000, name + ": a branch was not visited");
+}
+
+
+/// Separated soil bears nothing until its gap has closed, and then what it bore before.
+void test_gap()
+{
+  const MohrCoulomb law{ MohrCoulombParameters() };
+  UpdateReport report;
+  PrincipalValues strain      = { { -0.01, -0.01, -0.01 } }, stress;
+  double plastic_shear_strain = 0;
+  return_point(law, strain, &plastic_shear_strain, 1, stress, report);
+  const double start = stress[0];
+
+  const double steps[4] = { 0.05, -0.02, -0.019, -0.011 }; // along each axis: apart, nearer, nearer, closed
+  for (unsigned int i = 0; i < 4; ++i)
+    {
+      for (double &value : strain)
+        value += steps[i];
+      strain[0] += i < 3 ? 1e-4 : 0; // Grains apart have no shear stress, and shear does not close the gap.
+      strain[1] -= i < 3 ? 1e-4 : 0;
+      return_point(law, strain, &plastic_shear_strain, 1, stress, report);
+      require(i == 3 || stress[0] == 0, "Stress across a gap.");
+    }
+  expect(stress[0] / start, 1, 1e-12, "stress after a gap over that before");
+}
+
+
+/// Soil whose first axis opens and closes again: the stress stays at the cut-off until the opening has closed, then it
+/// is that of the start, and so is the energy. Soil that opens further is apart; its gap closes if it is pressed from
+/// all sides.
+template <typename Law>
+void test_opening(const std::string &name, const Law &law, const double cut_off)
+{
+  double internal[4] = { 0, 0, 0, 1e5 }; // the last one is the strength of Tresca's soil
+  UpdateReport report;
+  PrincipalValues strain = { { -1e-4, -1e-4, -1e-4 } }, stress;
+  const auto update      = [&] { return_point(law, strain, internal, 1, stress, report); };
+  update();
+  const PrincipalValues start = stress;
+  const double energy_before = law.energy(strain), opening = 0.8 * MohrCoulomb::largest_opening;
+  double energy_of_half = 0, left = 0, left_energy = 0, work_error = 0;
+  for (unsigned int wave = 0; wave < 10; ++wave)
+    for (const double part : { 1, 1, -1, -1 })
+      {
+        strain[0] += part * opening / 2;
+        update();
+        const double energy = law.energy(strain);
+        if (strain[0] > opening / 4)
+          {
+            left = std::max(left, std::abs(stress[0] - cut_off));
+            if (strain[0] > 0.75 * opening)
+              work_error = std::max(work_error, std::abs(energy - energy_of_half - cut_off * opening / 2));
+            energy_of_half = energy;
+            continue;
+          }
+        left        = std::max(left, largest_difference(stress, start));
+        left_energy = std::max(left_energy, std::abs(energy - energy_before));
+      }
+  expect(left, 0, 1e-9 * std::abs(start[0]), name + ": stress left by a wave");
+  expect(internal[0], 0, 0, name + ": plastic shear of an opening");
+  expect(left_energy, 0, 1e-9 * energy_before, name + ": energy left by a wave");
+  expect(work_error, 0, 1e-9 * cut_off, name + ": energy less the work of the cut-off");
+
+  for (const int part : { 1, -1 })
+    for (unsigned int i = 0; i < 100; ++i)
+      {
+        const double change = 0.1 * MohrCoulomb::largest_opening;
+        for (unsigned int k = 0; k < 3; ++k)
+          strain[k] += part > 0 ? (k == 0 ? change : 0) : -change / 3;
+        update();
+        if (strain[0] + strain[1] + strain[2] > 1.1 * MohrCoulomb::largest_opening)
+          for (const double value : stress)
+            expect(value, cut_off, 0, name + ": stress in soil that is apart");
+      }
+  expect(largest_difference(stress, start), 0, 1e-9 * std::abs(start[0]), name + ": stress left by a gap");
+}
+
+
+void test_openings(const double cut_off)
+{
+  MohrCoulombParameters parameters;
+  parameters.cohesion        = 1e5;
+  parameters.tension_cut_off = cut_off;
+  test_opening("perfectly plastic", MohrCoulomb(parameters), cut_off);
+  parameters.softening.strain   = 0.1;
+  parameters.softening.cohesion = 5e4;
+  test_opening("softening", SofteningMohrCoulomb(parameters), cut_off);
+  TrescaParameters clay;
+  clay.tension_cut_off = cut_off;
+  test_opening("Tresca", Tresca(clay), cut_off);
+}
+
+
+/// The apex lies at c / tan(phi); an angle of direct shear is phi with associated flow, and tan(phi) takes the place of
+/// sin(phi) without dilation (Davis 1968). A factor divides c and tan(phi), of the peak and residual, and nothing else.
+void test_strength()
+{
+  MohrCoulombParameters parameters;
+  parameters.friction_angle = 30;
+  parameters.cohesion       = 1e3;
+  expect(parameters.apex(), 1e3 * std::sqrt(3.), 1e-9, "apex, Pa");
+  parameters.angle_kind = "direct shear or repose";
+  expect(parameters.sine(), 1. / std::sqrt(3.), 1e-12, "sin(phi) of direct shear, psi = 0");
+  parameters.dilation_angle = 30;
+  expect(parameters.sine(), 0.5, 1e-12, "sin(phi) of direct shear, psi = phi");
+
+  const auto tangent        = [](const MohrCoulombParameters &law) { return std::tan(std::asin(law.sine())); };
+  parameters.dilation_angle = 5;
+  for (const std::string kind : { "triaxial", "direct shear or repose" })
+    for (const double residual : { -1., 200. })
+      for (const double factor : { 0.25, 1., 2. })
+        {
+          MohrCoulombParameters before = parameters;
+          before.angle_kind            = kind;
+          if (residual > 0)
+            {
+              before.softening.strain         = 0.1;
+              before.softening.cohesion       = residual;
+              before.softening.friction_angle = 25;
+              before.softening.dilation_angle = 0;
+            }
+          MohrCoulombParameters after = before;
+          after.divide_strength(factor);
+          after.check("Mohr-Coulomb");
+          expect(after.cohesion / before.cohesion, 1 / factor, 1e-12, "divided c");
+          expect(tangent(after) / tangent(before), 1 / factor, 1e-12, "divided tan(phi)");
+          const auto least = after.residual(), least_before = before.residual();
+          expect(least.cohesion / least_before.cohesion, 1 / factor, 1e-12, "divided residual c");
+          expect(tangent(least) / tangent(least_before), 1 / factor, 1e-12, "divided residual tan(phi)");
+          expect(after.dilation_angle, 5, 0, "psi");
+        }
+}
+
+
+MohrCoulombParameters clay()
+{
+  MohrCoulombParameters parameters;
+  parameters.young_modulus            = 1e7;
+  parameters.cohesion                 = 2e4;
+  parameters.friction_angle           = 0;
+  parameters.softening.strain         = 0.05;
+  parameters.softening.cohesion       = 5e3;
+  parameters.softening.friction_angle = 0;
+  return parameters;
+}
+
+
+void test_softening(const std::string &name, const MohrCoulombParameters &parameters, RandomNumbers &random)
+{
+  const SofteningMohrCoulomb law(parameters);
+  const bool is_continuous = parameters.cohesion > 0; // grains apart do not dilate
+  double largest_yield = 0, largest_again = 0, largest_slope = 0, kappa = 0;
+  UpdateReport report;
+  random_returns(
+      name,
+      law,
+      random,
+      100000,
+      [&](RandomReturn &point) {
+        point.internal[1] = point.internal[2] = kappa = random.uniform(-0.01, 0.2);
+        return parameters.cohesion;
+      },
+      [&](RandomReturn &point) {
+        double *internal = point.internal;
+        largest_yield    = std::max(largest_yield, law.yield(point.stress, law.strength(kappa)) / point.scale);
+        // Over the other plastic strain: 1.5 in triaxial, sqrt(3) in plane shear.
+        require(internal[1] >= kappa + 1.4999 * internal[0] - 1e-12 &&
+                    internal[1] <= kappa + 1.7321 * internal[0] + 1e-12,
+                name + ": kappa is not that of the plastic strain");
+        require(internal[1] == internal[2], name + ": without averages, kappa sets the strength");
+        require(!point.is_at_vertex || internal[1] == kappa, name + ": kappa grows where grains are apart");
+
+        PrincipalValues near = point.trial, near_stress;
+        const double shift   = 1e-6 * point.size;
+        for (double &value : near)
+          value += shift * random.uniform(-1, 1);
+        double near_internal[3] = { 0, kappa, kappa };
+        return_point(law, near, near_internal, 1, near_stress, report);
+        if (is_continuous)
+          largest_slope =
+              std::max(largest_slope, largest_difference(point.stress, near_stress) / (law.bulk_modulus(0) * shift));
+        if (point.is_at_vertex)
+          return;
+        PrincipalValues again = point.strain, again_stress;
+        internal[2]           = kappa;
+        return_point(law, again, internal, 1, again_stress, report);
+        largest_again = std::max(largest_again, largest_difference(again_stress, point.stress) / point.scale);
+      });
+  expect(largest_yield, 0, 1e-10, name + ": yield");
+  expect(largest_again, 0, 1e-10, name + ": a returned stress returns elsewhere, by what");
+  expect(largest_slope, 0, 100, name + ": jump of stress over that of strain");
+}
+
+
+/// Strength that does not fall within the strains of the test is that of the law without softening.
+void test_peak(const std::string &name, MohrCoulombParameters parameters, RandomNumbers &random)
+{
+  parameters.softening = {};
+  const MohrCoulomb perfect(parameters);
+  parameters.softening.strain   = 1e30;
+  parameters.softening.cohesion = 0;
+  const SofteningMohrCoulomb law(parameters);
+  UpdateReport report;
+  for (unsigned int i = 0; i < 200000; ++i)
+    {
+      const double size      = random.log_uniform(1e-6, 1e-1);
+      PrincipalValues strain = random_strain(random, size), of_perfect = strain, stress, stress_of_perfect;
+      double internal[3] = {}, internal_of_perfect[1] = {};
+      return_point(law, strain, internal, 1, stress, report);
+      return_point(perfect, of_perfect, internal_of_perfect, 1, stress_of_perfect, report);
+      const double scale = perfect.bulk_modulus(0) * size + parameters.cohesion;
+      expect(largest_difference(stress, stress_of_perfect) / scale, 0, 1e-10, name + ": difference of stress");
+      expect(internal[0], internal_of_perfect[0], 1e-10 * size, name + ": plastic shear strain");
+    }
+}
+
+
+/// Largest error of tau over the peak on a path to gamma = 0.3 in `n` steps, against tau = c(gamma - tau/G).
+double error_of_shear(const unsigned int n)
+{
+  const MohrCoulombParameters parameters = clay();
+  const SofteningMohrCoulomb law(parameters);
+  const double G = law.shear_modulus(), residual = 5e3, fall = 1.5e4;
+  PrincipalValues strain = { { -0.01, -0.01, -0.01 } }, stress; // the law has no friction
+  double internal[3] = {}, largest = 0, exact = 0;
+  UpdateReport report;
+  for (unsigned int step = 1; step <= n; ++step)
+    {
+      const double gamma = 0.3 * step / n;
+      strain[0] += 0.15 / n;
+      strain[2] -= 0.15 / n;
+      return_point(law, strain, internal, 1, stress, report);
+      if (G * gamma < parameters.cohesion)
+        exact = G * gamma;
+      else
+        for (unsigned int i = 0; i < 50; ++i)
+          exact = residual + fall * std::exp(-(gamma - exact / G) / 0.05);
+      largest = std::max(largest, std::abs((stress[0] - stress[2]) / 2 - exact) / parameters.cohesion);
+    }
+  return largest;
+}
+
+
+constexpr double grain_density = 2650, pressure = 1e3; // kg/m^3, Pa
+constexpr InertialFrictionParameters friction{ 1e-3, 0.3, 0.26 };
+
+/// Deviation of tau/p from the law after a shear strain of 1 at the rate, 1/s, in steps of this strain.
+double inertial_deviation(const Material<2> &material, const double rate, const double strain)
+{
+  double wanted[4] = { -pressure, -pressure, -pressure, 0 }, b[4], stress[4], internal[3];
+  material.initialise(wanted, b, stress, internal);
+  UpdateReport report;
+  const double increment[4] = { 1, strain, 0, 1 }, one = 1;
+  for (unsigned int step = 0; step * strain < 1; ++step)
+    material.update(
+        { 1, 0, b, stress, internal }, { increment, &one, &one, &one, 1, strain / rate, grain_density }, report);
+  expect(double(report.n_unresolved), 0, 0, "unresolved returns");
+  const double p      = -(stress[0] + stress[1]) / 2;
+  const double shear  = std::sqrt(std::pow((stress[0] - stress[1]) / 2, 2) + stress[3] * stress[3]);
+  const double number = rate * friction.grain_diameter * std::sqrt(grain_density / p);
+  return shear / p / (0.5 + friction.friction_increase / (1 + friction.reference_number / number)) - 1;
+}
+
+
+/// Steady shear in steps of any size; the part that is kept solves its equation and stays within 0 and 1.
+void test_inertial_friction()
+{
+  MohrCoulombParameters coulomb;
+  coulomb.young_modulus     = 1e8;
+  coulomb.inertial_friction = friction;
+  const HenckyMaterial<2, MohrCoulomb> material{ MohrCoulomb(coulomb) };
+  for (const double rate : { 1e-3, 0.1, 10., 300. })
+    for (const double strain : { 1e-5, 9e-4, 5e-3 })
+      expect(inertial_deviation(material, rate, strain), 0, 1e-3, "deviation of tau/p");
+
+  const InertialFriction law(friction);
+  RandomNumbers random;
+  for (unsigned int i = 0; i < 100000; ++i)
+    {
+      const double gamma = random.log_uniform(1e-20, 10), p = random.log_uniform(1e-6, 1e8),
+                   step = random.log_uniform(1e-9, 1e3), modulus = random.log_uniform(1e3, 1e11);
+      const double part = law.kept_part<double>(gamma, modulus, p, grain_density, step);
+      require(part >= 0 && part <= 1, "part " + std::to_string(part));
+      // The equation of the part, where numbers do not cancel.
+      const double whole = gamma / step * friction.grain_diameter * std::sqrt(grain_density / p);
+      if (part > 1e-6 && part < 0.999 && p > 1e-3)
+        expect(part * modulus * gamma * (friction.reference_number + (1 - part) * whole) /
+                   (friction.friction_increase * p * (1 - part) * whole),
+               1,
+               1e-6,
+               "the equation of the part");
+    }
+  const double slow = std::numeric_limits<double>::infinity();
+  expect(law.kept_part<double>(1e-3, 1e6, 1e3, grain_density, slow), 0, 0, "slow");
+  expect(law.kept_part<double>(0., 1e6, 1e3, grain_density, 1e-3), 0, 0, "without strain");
+  expect(law.kept_part<double>(1e-3, 1e6, 0., grain_density, 1e-3), 0, 0, "without pressure");
+}
+
+
+void run()
+{
+  RandomNumbers random;
+  MohrCoulombParameters soil;
+  test_random("phi 30, psi 0", soil, random);
+  soil.dilation_angle = 10;
+  test_random("phi 30, psi 10", soil, random);
+  soil.cohesion = 1e3;
+  test_random("phi 30, psi 10, c 1 kPa, no tension", soil, random);
+  soil.tension_cut_off = 500;
+  test_random("phi 30, psi 10, c 1 kPa, cut-off 500 Pa", soil, random);
+  soil.tension_cut_off = 1e3 / std::tan(numbers::PI / 6) * (1 - 1e-14);
+  test_random("phi 30, psi 10, c 1 kPa, cut-off at the apex", soil, random);
+  soil.friction_angle = soil.dilation_angle = 0;
+  soil.tension_cut_off                      = 200;
+  test_random("phi 0, c 1 kPa, cut-off 200 Pa", soil, random);
+  test_gap();
+  test_openings(0);
+  test_openings(2000);
+  test_strength();
+
+  MohrCoulombParameters falling = clay();
+  test_softening("phi 0, c 20 to 5 kPa", falling, random);
+  test_peak("phi 0, c", falling, random);
+  falling.tension_cut_off = 2e3;
+  test_softening("phi 0, c 20 to 5 kPa, cut-off 2 kPa", falling, random);
+  falling.tension_cut_off          = 0;
+  falling.friction_angle           = 35;
+  falling.dilation_angle           = 10;
+  falling.softening.friction_angle = 25;
+  falling.softening.dilation_angle = 0;
+  test_softening("phi 35 to 25, psi 10 to 0, c 20 to 5 kPa", falling, random);
+  test_peak("phi 35, psi 10, c", falling, random);
+  falling.softening.cohesion = 0;
+  test_softening("phi 35 to 25, psi 10 to 0, c 20 kPa to 0", falling, random);
+  falling.cohesion = 0;
+  test_softening("phi 35 to 25, psi 10 to 0, no cohesion", falling, random);
+  const double coarse = error_of_shear(1000), fine = error_of_shear(4000);
+  expect(coarse, 0, 6e-3, "error of tau in 1000 steps");
+  expect(coarse / fine, 4, 0.2, "gain of four times as many steps"); // first order
+  test_inertial_friction();
+}
+
+const UnitTest registered("mohr_coulomb", run);
+} // namespace test_mohr_coulomb

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Nor-Sand: random and extreme returns are numbers without tension, never outside the yield surface, never unresolved.
+// Sand pulled apart bears nothing until the gap is closed again, to the volume where it came apart.
+#include "one_point.h"
+
+#include <scree/materials/laws/nor_sand.h>
+#include <scree/materials/table.h>
+
+namespace test_nor_sand
+{
+struct Range
+{
+  unsigned int n_updates;
+  double smallest_strain, largest_strain, smallest_image_pressure, largest_image_pressure;
+};
+
+
+void test_returns(const std::string &name,
+                  const NorSandParameters &parameters,
+                  const Range &range,
+                  RandomNumbers &random)
+{
+  const NorSand law(parameters);
+  UpdateReport report;
+  double largest_yield = -1e300, smallest_dissipation = 1e300, largest_stress_error = 0;
+  unsigned int n_elastic = 0;
+  for (unsigned int i = 0; i < range.n_updates; ++i)
+    {
+      // A state on or inside the yield surface, then a strain increment.
+      const double image_pressure = random.log_uniform(range.smallest_image_pressure, range.largest_image_pressure);
+      const double pressure       = image_pressure * random.log_uniform(1e-3, 2.298);
+      const double volume_strain  = -parameters.swelling_index * std::log(pressure / 1000);
+      const double size           = random.log_uniform(range.smallest_strain, range.largest_strain);
+      PrincipalValues strain, stress;
+      for (double &value : strain)
+        value = volume_strain / 3 + size * random.uniform(-1, 1);
+
+      const PrincipalValues trial = strain;
+      double internal[2]          = { image_pressure, 0 };
+      n_elastic += !return_point(law, strain, internal, random.log_uniform(0.8, 1.5), stress, report);
+
+      const double mean = (stress[0] + stress[1] + stress[2]) / 3;
+      double sum = 0, dissipation = 0, scale = 0;
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          sum += stress[k] + strain[k];
+          dissipation += stress[k] * (trial[k] - strain[k]);
+          scale += std::abs(stress[k]) * (std::abs(trial[k]) + std::abs(strain[k]));
+        }
+      require(std::isfinite(sum) && std::isfinite(internal[0]) && internal[0] > 0 && internal[1] >= 0,
+              name + ": not a number");
+      require(mean <= 0, name + ": tension");
+      if (scale > 0)
+        smallest_dissipation = std::min(smallest_dissipation, dissipation / scale);
+      if (mean < 0)
+        {
+          largest_yield         = std::max(largest_yield, law.yield(strain, internal[0]));
+          const double expected = 1000 * std::exp(-(strain[0] + strain[1] + strain[2]) / parameters.swelling_index);
+          largest_stress_error  = std::max(largest_stress_error, std::abs(mean + expected) / expected);
+        }
+    }
+  require(largest_yield < 1e-8, name + ": outside the yield surface by " + std::to_string(largest_yield));
+  require(smallest_dissipation > -1e-10, name + ": dissipation " + std::to_string(smallest_dissipation));
+  expect(largest_stress_error, 0, 1e-9, name + ": stress less that of the strain");
+  require(report.n_unresolved == 0, name + ": unresolved " + std::to_string(report.n_unresolved));
+  // The sample must reach every branch, or the test proves nothing.
+  require(n_elastic > 0 && report.n_fallbacks > 0 && report.n_vertices > 0 && report.n_separated > 0,
+          name + ": a branch was not visited");
+}
+
+
+void test_gap()
+{
+  MaterialParameters parameters;
+  const auto material = make_material<2>(parameters);
+
+  constexpr double pressure = 1e4, step = 5e-5, one = 1;
+  const double start[4] = { -pressure, -pressure, -pressure, 0 };
+  double left_cauchy_green[4], stress[4], internal[2];
+  material->initialise(start, left_cauchy_green, stress, internal);
+
+  UpdateReport report;
+  double volume_strain = 0; // ln J
+  const auto stretch   = [&](const double strain) {
+    const double out_of_plane = std::exp(strain), increment[4] = { out_of_plane, 0, 0, out_of_plane };
+    volume_strain += 3 * strain;
+    const double J = std::exp(volume_strain);
+    material->update({ 1, 0, left_cauchy_green, stress, internal }, { increment, &out_of_plane, &J, &one }, report);
+  };
+
+  // From 10 kPa to the minimum pressure the sand swells by kappa ln(10 kPa/1 Pa).
+  const NorSandParameters &law = parameters.of<NorSandParameters>();
+  const double contact         = law.swelling_index * std::log(pressure / law.minimum_pressure);
+  for (unsigned int i = 0; i < 400; ++i)
+    {
+      stretch(step);
+      require((stress[0] < 0) == (volume_strain < contact), "Wrong contact on the way out.");
+    }
+  require(report.n_separated > 0 && material->elastic_energy(left_cauchy_green) < 1e-2,
+          "The sand should be apart and store nothing.");
+  // A wide step is taken in many sub-steps, yet the point is apart once.
+  const UpdateReport before = report;
+  stretch(0.01);
+  require(report.n_substeps > before.n_substeps + 5 && report.n_separated == before.n_separated + 1,
+          "A point that is pulled on is apart once.");
+  stretch(-0.01);
+  while (volume_strain > 1e-9)
+    {
+      stretch(-step);
+      require((stress[0] < 0) == (volume_strain < contact), "Wrong contact on the way back.");
+    }
+  require(report.n_unresolved == 0, "Unresolved returns.");
+  expect(-stress[0] / pressure, 0.197818, 1e-6, "pressure after the gap over that before, which no bounce may exceed");
+}
+
+
+void run()
+{
+  const Range common  = { 3000000, 1e-6, 1e-1, 1e1, 1e6 };
+  const Range extreme = { 200000, 1e-3, 10, 1e-10, 1e10 };
+  RandomNumbers random;
+  NorSandParameters parameters;
+  test_returns("dense", parameters, common, random);
+  test_returns("dense, extreme", parameters, extreme, random);
+  parameters.initial_specific_volume = 1.736;
+  test_returns("loose, extreme", parameters, extreme, random);
+  parameters.potential_constant = 0.1;
+  test_returns("not associated, extreme", parameters, extreme, random);
+  parameters.potential_constant = parameters.yield_constant = 0;
+  test_returns("Cam-Clay N = 0, extreme", parameters, extreme, random);
+  test_gap();
+}
+
+const UnitTest registered("nor_sand", run);
+} // namespace test_nor_sand

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_tests_unit_soil_h
+#define scree_tests_unit_soil_h
+
+#include "test.h"
+
+#include <scree/bodies/water_phase.h>
+#include <scree/materials/table.h>
+#include <scree/seeding/seeding.h>
+
+#include <list>
+
+template <int dim>
+std::unique_ptr<Material<dim>> elastic_material()
+{
+  MaterialParameters parameters;
+  parameters.law = "linear elastic";
+  return make_material<dim>(parameters);
+}
+
+template <int dim>
+void seed_region(SoilBody<dim> &body,
+                 const BackgroundGrid<dim> &grid,
+                 const std::string &region,
+                 const unsigned int points_per_cell,
+                 const std::string &velocity = "")
+{
+  SeedingParameters seeding;
+  seeding.region           = region;
+  seeding.points_per_cell  = points_per_cell;
+  seeding.initial_velocity = velocity;
+  seed(body, seeding, { grid.triangulation(), grid.cell_size() });
+}
+
+
+/// Linear elastic soil, of grains of 2500 kg/m^3 unless another density is given, in a region of a grid; "none" has no
+/// points.
+template <int dim>
+struct ElasticSoil : SoilBody<dim>
+{
+  ElasticSoil(const BackgroundGrid<dim> &grid,
+              const std::string &region,
+              const unsigned int points_per_cell,
+              const double porosity,
+              const double density_of_grains    = 2500.,
+              const PropertyLayout<dim> &layout = PropertyLayout<dim>(0, false),
+              const std::string &velocity       = "")
+      : SoilBody<dim>("Soil",
+                      density_of_grains * (1. - porosity),
+                      density_of_grains,
+                      elastic_material<dim>(),
+                      layout,
+                      grid.triangulation(),
+                      grid.mapping())
+  {
+    if (region != "none")
+      seed_region(*this, grid, region, points_per_cell, velocity);
+  }
+};
+
+
+/// Linear elastic bodies of 1000 kg/m^3, and water, in a box with cells of 0.1 m.
+template <int dim>
+struct SoilScene
+{
+  BackgroundGrid<dim> grid;
+  std::list<SoilBody<dim>> bodies;
+  std::list<WaterPhase<dim>> water;
+
+  /// @param lower, upper coordinates of the corners along each axis, m
+  SoilScene(const double lower, const double upper)
+      : grid(grid_box<dim>(lower, upper), MPI_COMM_WORLD)
+  {
+  }
+
+  /// A body without pores.
+  SoilBody<dim> &add_soil(const std::string &region, const unsigned int points_per_cell = 2)
+  {
+    return add_body(region, 1000., 0, points_per_cell);
+  }
+
+  /// A body whose points carry water that is `part` of their volume.
+  SoilBody<dim> &add_wet_soil(const std::string &region, const double part, const unsigned int points_per_cell = 2)
+  {
+    auto &soil = add_body(region, 2000., WaterLayout<dim>(0, false).n_properties(), points_per_cell);
+    water.emplace_back(1000., false, soil);
+    const auto &layout = water.back().layout;
+    for_each_point(soil.points, [&](const auto &point) {
+      point.properties[layout.volume] = part * point.properties[soil.layout.volume];
+      point.properties[layout.mass]   = 1000. * point.properties[layout.volume];
+    });
+    return soil;
+  }
+
+private:
+  SoilBody<dim> &add_body(const std::string &region,
+                          const double grain_density,
+                          const unsigned int n_water,
+                          const unsigned int points_per_cell)
+  {
+    bodies.emplace_back("Soil",
+                        1000.,
+                        grain_density,
+                        elastic_material<dim>(),
+                        PropertyLayout<dim>(0, false, n_water),
+                        grid.triangulation(),
+                        grid.mapping());
+    seed_region(bodies.back(), grid, region, points_per_cell);
+    return bodies.back();
+  }
+};
+
+#endif

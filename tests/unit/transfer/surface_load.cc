@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Surface load: the markers have the patch's area, also where it ends inside a cell; the nodes get its force and
+// moment; markers move with the nodes' velocity and stay in the box, and the work is that of the force at the nodes. A
+// uniform stress is in balance with the load on its face, wherever that face lies in its cell: at every node that takes
+// load the forces of stress and load differ by less than 3 % of the load's part, light nodes included. (With the
+// markers' shape functions a node that soil just reaches is pushed by several times what its soil bears.)
+#include "../soil.h"
+
+#include <scree/momentum/load_transfer.h>
+#include <scree/transfer/transfer.h>
+
+namespace test_surface_load
+{
+/// A load of `traction` on the patch; `force` and `area` are what it should add up to.
+template <int dim>
+void test_patch(const std::string &basis,
+                const std::vector<double> &lower_corner,
+                const std::vector<double> &upper_corner,
+                const std::string &traction,
+                const double area,
+                const Tensor<1, dim> &force,
+                const unsigned int n_markers)
+{
+  const GridParameters box = grid_box<dim>(-0.2, 0.8, 0.1, basis);
+  const BackgroundGrid<dim> grid(box, MPI_COMM_WORLD);
+  SurfaceLoadParameters parameters;
+  parameters.lower_corner = lower_corner;
+  parameters.upper_corner = upper_corner;
+  parameters.traction     = traction;
+  parameters.check(box, dim);
+  SurfaceLoad<dim> load(grid, parameters, 4);
+
+  double sum_of_areas = 0;
+  for_each_point(load.points(), [&](const auto &marker) { sum_of_areas += marker.properties[SurfaceLoad<dim>::area]; });
+  expect(sum_of_ranks(sum_of_areas) / area, 1., 1e-12, "area of the patch");
+  expect(load.points().handler().n_global_particles(), n_markers, 0., "number of markers");
+
+  const double time = 2, step = 0.01;
+  NodalField<dim> field(grid);
+  field.clear();
+  LoadTransfer<dim> transfer(grid, load);
+  transfer.find_areas({}); // Without soil the markers' shape functions hand the force on.
+  const Tensor<1, dim> sum = sum_of_ranks(transfer.add_to(field, time));
+  field.add_contributions();
+  expect((sum - force).norm() / force.norm(), 0., 1e-12, "error of the force");
+
+  // A linear field of velocity, which the nodes carry exactly: the power is that of the markers' places. Nodes of equal
+  // mass lead a marker as its shape functions do.
+  const auto velocity = [](const Point<dim> &x) {
+    Tensor<1, dim> v;
+    for (unsigned int c = 0; c < dim; ++c)
+      v[c] = 0.3 + 0.1 * c + 0.7 * x[0] - 0.2 * x[dim - 1];
+    return v;
+  };
+  Tensor<1, dim> nodal_sum;
+  double nodal_work = 0;
+  for (const unsigned int node : field.active_nodes())
+    {
+      double *values = field[node];
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const double v = velocity(grid.node_position(node))[c];
+          nodal_sum[c] += values[NodalField<dim>::force + c];
+          nodal_work += 0.75 * step * values[NodalField<dim>::force + c] * v;
+          values[NodalField<dim>::velocity + c]        = v;
+          values[NodalField<dim>::velocity_change + c] = 0.5 * v;
+        }
+      values[NodalField<dim>::mass] = 1;
+    }
+  expect((sum_of_ranks(nodal_sum) - force).norm() / force.norm(), 0., 1e-12, "error of the force at the nodes");
+  field.update_ghosts();
+
+  std::vector<Point<dim>> before;
+  for_each_point(load.points(), [&](const auto &marker) { before.push_back(marker.location); });
+  const double work = transfer.move(field, time, step);
+  auto from         = before.begin();
+  for_each_point(load.points(), [&](const auto &marker) {
+    Point<dim> expected = *from + step * velocity(*from);
+    ++from;
+    for (unsigned int a = 0; a < dim; ++a)
+      expected[a] = std::clamp(expected[a], grid.lower_corner()[a], grid.upper_corner()[a]);
+    expect(marker.location.distance(expected), 0., 1e-14, "error of a marker's place");
+  });
+  expect(sum_of_ranks(work) / sum_of_ranks(nodal_work), 1., 1e-12, "work over that of the nodes");
+  load.points().hand_over();
+  expect(load.points().handler().n_global_particles(), n_markers, 0., "number of markers after their motion");
+}
+
+
+/// @param above how far the face lies over a face between cells, in cells
+template <int dim>
+void test_balance(const double above)
+{
+  SoilScene<dim> scene(0., 0.8);
+  SoilBody<dim> &body = scene.add_soil(dim == 2 ? "y < 0.5" : "z < 0.5", 3);
+  SurfaceLoadParameters parameters;
+  parameters.lower_corner.assign(dim, 0.);
+  parameters.upper_corner.assign(dim, 0.8);
+  parameters.lower_corner[dim - 1] = parameters.upper_corner[dim - 1] = 0.5;
+  parameters.traction                                                 = dim == 2 ? "0; -1e3" : "0; 0; -1e3";
+  SurfaceLoad<dim> load(scene.grid, parameters, 4);
+
+  const double shift = above * scene.grid.cell_size();
+  for_each_point(body.points, [&](const auto &point) {
+    point.properties[body.layout.stress + dim - 1] = -1e3;
+    point.location[dim - 1] += shift;
+  });
+  for_each_point(load.points(), [&](const auto &marker) { marker.location[dim - 1] += shift; });
+  body.points.hand_over();
+  load.points().hand_over();
+
+  constexpr unsigned int force = NodalField<dim>::force + dim - 1;
+  LoadTransfer<dim> load_transfer(scene.grid, load);
+  load_transfer.find_areas(scene.bodies);
+  NodalField<dim> of_load(scene.grid), of_stress(scene.grid);
+  of_load.clear();
+  load_transfer.add_to(of_load, 0.);
+  of_load.add_contributions();
+  of_stress.clear();
+  TransferParameters flip;
+  flip.method = "FLIP"; // The points have no room for a gradient.
+  Transfer<dim>(scene.grid, flip, StabilisationParameters()).to_grid(body, of_stress);
+  of_stress.add_contributions();
+
+  double sum = 0;
+  for (const unsigned int node : of_load.active_nodes())
+    {
+      const double part = of_load[node][force];
+      sum += part;
+      if (part < -1e-8) // Less is rounding. What deeper nodes lack of balance is the scatter of points, load or not.
+        expect(of_stress[node][force] / part, -1., 0.03, "force of the stress at a node over that of the load");
+    }
+  expect(sum_of_ranks(sum) / (-1e3 * std::pow(0.8, dim - 1)), 1., 1e-12, "load that has arrived");
+}
+
+
+void run()
+{
+  for (const std::string basis : { "spline", "linear" })
+    {
+      test_patch<2>(basis, { 0., 0.5 }, { 0.63, 0.5 }, "100; -50*t", 0.63, Tensor<1, 2>({ 63., -63. }), 26);
+      // On the lower face of the box, and at a height inside a cell.
+      test_patch<2>(basis, { -0.2, -0.2 }, { -0.2, 0.8 }, "1; 2*t", 1., Tensor<1, 2>({ 1., 4. }), 40);
+      test_patch<2>(basis, { 0.11, 0.47 }, { 0.12, 0.47 }, "0; -3", 0.01, Tensor<1, 2>({ 0., -0.03 }), 1);
+    }
+  const Tensor<1, 3> force({ 0.15125, 0.55, 1.1 });
+  test_patch<3>("spline", { 0., -0.2, 0.8 }, { 0.55, 0.8, 0.8 }, "x; 1; t", 0.55, force, 880);
+
+  for (const double above : { 0., 0.01, 0.1, 0.2, 0.3, 0.5, 0.8, 0.99 })
+    test_balance<2>(above);
+  for (const double above : { 0., 0.01, 0.5 })
+    test_balance<3>(above);
+}
+
+const UnitTest registered("surface_load", run);
+} // namespace test_surface_load
+
+// Runs with mpirun=1,2.
