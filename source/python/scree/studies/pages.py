@@ -14,7 +14,6 @@ SENTENCES = re.compile(r"(?<=[.!?])(?<!al\.)\s+(?=[A-Z0-9`*(\[\"]|p )")
 MARKUP = re.compile(r"([-+*>#|]|#+|\d+[.)])$")  # a word that would begin a list, a heading or a table at the start of a line
 
 
-
 class Topic(NamedTuple):
     """A page: its heading and its studies."""
     title: str
@@ -32,7 +31,7 @@ TOPICS = {
     "impact_and_gaps": Topic("Impact and gaps", ("impact", "air_gap")),
     "infiltration": Topic("Infiltration", ("wetting_front",)),
     "waves_and_convergence": Topic("Waves and convergence", ("bar", "manufactured", "pic_courant")),
-    "soil_models": Topic("Soil models and quality of the stress", ("contours", "triaxial", "nor_sand_density", "low_stress", "bulk_to_shear", "shear_bands")),
+    "soil_models": Topic("Soil models and quality of the stress", ("contours", "nor_sand_density", "low_stress", "bulk_to_shear", "shear_bands")),
     "experiments": Topic("Experiments", ("aluminium_bars", "martin_moyce")),
     "cost": Topic("Cost", ("advice", "scaling", "nothing_costs", "peers")),
 }

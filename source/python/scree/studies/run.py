@@ -44,15 +44,14 @@ def module_of(name):
 def case_text(study, variant, folder=None):
     """The variant's parameter file, without an output directory; paths of files count from `folder`, or from the base."""
     text = prm_files.read_case(ROOT / (variant.base or study.base), folder)
-    defaults = {"Output/Checkpoint interval": 0} if study.program == "scree" else {}
-    for name, value in {**defaults, **study.entries, **variant.entries}.items():
+    for name, value in {"Output/Checkpoint interval": 0, **study.entries, **variant.entries}.items():
         text = prm_files.set_entry(text, name, f"{value:.12g}" if isinstance(value, float) else value)
     return text + "\n"
 
 
 def folder_of(study, variant, results):
     """Runs of one content share a folder, whichever study or label they serve."""
-    command = " ".join((study.program, *study.options))
+    command = " ".join(("scree", *study.options))
     return results / hashlib.sha256(f"{command} {variant.ranks}\n{case_text(study, variant)}".encode()).hexdigest()[:12]
 
 
@@ -76,7 +75,7 @@ def make_run(study, variant, folder, arguments):
     launcher = ["mpirun", "-np", str(variant.ranks)] if variant.ranks > 1 else []
     if variant.ranks > (os.cpu_count() or 1):
         launcher += ["--oversubscribe", "--mca", "mpi_yield_when_idle", "1"]
-    command = ["timeout", f"{arguments.time_limit:g}", *launcher, arguments.program.parent / study.program, *study.options, prm]
+    command = ["timeout", f"{arguments.time_limit:g}", *launcher, arguments.program, *study.options, prm]
     # Runs of Open MPI side by side share folders, which the last one to end removes under one that begins: each has its own.
     with open(screen, "w", encoding="utf-8") as output, tempfile.TemporaryDirectory(prefix="scree_", ignore_cleanup_errors=True) as temporary:
         environment["TMPDIR"] = temporary

@@ -82,7 +82,7 @@ class Study:
     entries: common to all variants. reference: entries of a run made first, `run.reference` in the measure; quick_reference: that of the
     short version, if it is another one. quick(labels): whether a variant belongs to the short version, with quick_entries. needs_end: a run that failed has
     no measures. options: of the program, such as --safety. default: the labels of the .prm's defaults, marked in the chart; a stability map needs them, {} if it compares no options, as
-    its headline is the share of these cells that are stable. program: scree or scree-element.
+    its headline is the share of these cells that are stable.
     environment(): variables that it is run with. after(run, program): what else is to be made in a run's folder, right after it.
     table(rows): the table of its section, the first row is the head; a map has one without it. compared(rows): lines of the table of experiments,
     (quantity, unit, measured, computed).
@@ -102,7 +102,6 @@ class Study:
     quick_entries: dict = dataclasses.field(default_factory=dict)
     needs_end: bool = True
     default: dict | None = None
-    program: str = "scree"
     options: tuple = ()
     environment: Callable = dict
     after: Callable = lambda run, program: None
