@@ -179,11 +179,11 @@ namespace scree
 
 
   template <int dim>
-  void TwoPhaseScheme<dim>::project_to_boundary(const double time_step, const double largest_speed)
+  void TwoPhaseScheme<dim>::project_to_boundary(const double time_step, StepReport<dim> &report)
   {
+    const double largest_speed = report.speeds.points;
     for (auto &one : water)
-      if (PointSet<dim> *own = one.own_points())
-        clamp_to_box(grid, faces_closed_to_water, *own);
+      keep_off_walls(grid, faces_closed_to_water, one, report.balance);
     std::vector<PointSet<dim> *> of_soil;
     soil.append_point_sets(of_soil);
     for (PointSet<dim> *points : of_soil)

@@ -64,7 +64,7 @@ namespace scree
       }
       if (!holds_water)
         move_water(time_step, report);
-      project_to_boundary(time_step, report.speeds.points);
+      project_to_boundary(time_step, report);
     }
     void hold_water(const bool holds) override
     {
@@ -161,7 +161,7 @@ namespace scree
     }
 
     /// Takes points back that have left through the box or the ground.
-    void project_to_boundary(const double time_step, const double largest_speed);
+    void project_to_boundary(const double time_step, StepReport<dim> &report);
 
     const BackgroundGrid<dim> &grid;
     const BodyForces<dim> &forces;

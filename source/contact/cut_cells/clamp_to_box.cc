@@ -2,12 +2,17 @@
 #include <scree/contact/cut_cells/clamp_to_box.h>
 #include <scree/particles/point_set.h>
 
+#include <cmath>
+
 namespace scree
 {
   using namespace dealii;
 
   namespace
   {
+    /// Least distance of water from walls, sizes of a point.
+    constexpr double nearest = 0.25;
+
     /// How far a point may be outside, cells.
     constexpr double farthest = 0.1;
 
@@ -17,24 +22,40 @@ namespace scree
 
 
   template <int dim>
-  void clamp_to_box(const BackgroundGrid<dim> &grid, const std::uint8_t closed_faces, PointSet<dim> &points)
+  void keep_off_walls(const BackgroundGrid<dim> &grid,
+                      const std::uint8_t closed_faces,
+                      WaterPhase<dim> &water,
+                      Budget<dim> &balance)
   {
-    const double width = grid.cell_size();
-    for (const auto &cell : points.cells())
+    if (water.own_points() == nullptr)
+      return;
+    for (const auto &cell : water.own_points()->cells())
       {
         const unsigned int faces = grid.open_knots(cell.cell) & closed_faces;
-        if (faces == 0)
-          continue;
-        for (unsigned int p = 0; p < cell.n_points; ++p)
-          for (unsigned int a = 0; a < dim; ++a)
-            {
-              double &x          = cell.location_of(p)[a];
-              const double lower = grid.lower_corner()[a], upper = grid.upper_corner()[a];
-              if (faces >> 2 * a & 1 && x < lower && x > lower - farthest * width)
-                x = lower + inside * width;
-              if (faces >> (2 * a + 1) & 1 && x > upper && x < upper + farthest * width)
-                x = upper - inside * width;
-            }
+        for (unsigned int p = 0; faces != 0 && p < cell.n_points; ++p)
+          {
+            double *values         = cell.properties_of(p);
+            const double mass      = values[water.layout.mass];
+            const double clearance = nearest * std::pow(values[water.layout.volume], 1. / dim);
+            for (unsigned int f = 0; f < 2 * dim; ++f)
+              {
+                const unsigned int a = f / 2;
+                const double inward  = f % 2 == 0 ? 1. : -1.;
+                const double wall    = (f % 2 == 0 ? grid.lower_corner() : grid.upper_corner())[a];
+                double &x            = cell.location_of(p)[a];
+                const double gap     = inward * (x - wall);
+                if (!(faces >> f & 1) || gap >= clearance || gap <= -farthest * grid.cell_size())
+                  continue;
+                x                = wall + inward * clearance;
+                double &velocity = values[water.layout.velocity + a];
+                if (inward * velocity >= 0.)
+                  continue;
+                balance.wall_impulse[a] -= mass * velocity;
+                balance.water_walls.of_face[f][a] -= mass * velocity;
+                balance.wall_dissipation += 0.5 * mass * velocity * velocity;
+                velocity = 0.;
+              }
+          }
       }
   }
 
@@ -102,8 +123,8 @@ namespace scree
       }
   }
 
-  template void clamp_to_box(const BackgroundGrid<2> &, const std::uint8_t, PointSet<2> &);
-  template void clamp_to_box(const BackgroundGrid<3> &, const std::uint8_t, PointSet<3> &);
+  template void keep_off_walls(const BackgroundGrid<2> &, const std::uint8_t, WaterPhase<2> &, Budget<2> &);
+  template void keep_off_walls(const BackgroundGrid<3> &, const std::uint8_t, WaterPhase<3> &, Budget<3> &);
   template void
   move_out_of_ground(const BackgroundGrid<2> &, const std::uint8_t, const Tensor<1, 2> &, double, Point<2> &);
   template void

@@ -165,23 +165,46 @@ void run()
   gated.release(dt);
   expect(gated.held().first, n_all, 0., "nodes that a gate and walls hold");
 
-  // By default the top is drained.
-  const auto test_hold =
-      [&](const std::string &what, const Point<2> &start, const Point<2> &moved, const Point<2> &end) {
-        Box box;
-        box.add(start, rest);
-        for_each_point(box.points, [&](const auto &point) { point.location = moved; });
-        clamp_to_box(box.grid, box.water_walls.closed_faces(), box.points);
-        double error = 0;
-        for_each_point(box.points, [&](const auto &point) { error = point.location.distance(end); });
-        expect(Utilities::MPI::max(error, MPI_COMM_WORLD), 0., 2e-6 * h, what + ": error of the place");
-      };
-  const double low = 0.5 * h, out = 0.09 * h, far_out = 0.11 * h;
-  test_hold("below the bottom", { middle, low }, { middle, -out }, { middle, 0. });
-  test_hold("beyond a corner", { 1. - low, low }, { 1. + out, -out }, { 1., 0. });
-  test_hold("far below the bottom", { middle, low }, { middle, -far_out }, { middle, -far_out });
-  test_hold("above the drained top", { middle, 1. - low }, { middle, 1. + out }, { middle, 1. + out });
-  test_hold("inside", { middle, low }, { middle, 1e-3 * h }, { middle, 1e-3 * h });
+  // By default the top is drained. A point of water half a cell wide, 2 kg, on its way out.
+  const double size = 0.5 * h, least = 0.25 * size;
+  const auto test_hold = [&](const std::string &what,
+                             const Point<2> &place,
+                             const Point<2> &end,
+                             const Tensor<1, 2> &velocity,
+                             const Tensor<1, 2> &impulse) {
+    Box box;
+    WaterPhase<2> phase(1000., false, box.grid.triangulation(), box.grid.mapping());
+    for (const auto &cell : box.grid.triangulation().active_cell_iterators())
+      if (cell->is_locally_owned() && cell->bounding_box().point_inside(Point<2>(middle, 0.5 * h)))
+        phase.points().add(cell, Point<2>(middle, 0.5 * h), 0, std::vector<double>(phase.layout.n_properties(), 0.));
+    phase.points().finish_adding();
+    Budget<2> balance;
+    double error = 0, loss = 0;
+    for_each_point(phase.points(), [&](const auto &point) {
+      point.location                              = place;
+      point.properties[phase.layout.mass]         = 2.;
+      point.properties[phase.layout.volume]       = size * size;
+      point.properties[phase.layout.velocity]     = velocity[0];
+      point.properties[phase.layout.velocity + 1] = velocity[1];
+    });
+    keep_off_walls(box.grid, box.water_walls.closed_faces(), phase, balance);
+    for_each_point(phase.points(), [&](const auto &point) {
+      const Tensor<1, 2> left({ point.properties[phase.layout.velocity], point.properties[phase.layout.velocity + 1] });
+      error = point.location.distance(end) + (2. * (left - velocity) - impulse).norm();
+      loss  = velocity.norm_square() - left.norm_square();
+    });
+    expect(Utilities::MPI::max(error, MPI_COMM_WORLD), 0., 1e-12, what + ": error of place and velocity");
+    balance.wall_impulse = Utilities::MPI::sum(balance.wall_impulse, MPI_COMM_WORLD);
+    expect((balance.wall_impulse - impulse).norm(), 0., 1e-12, what + ": error of the impulse");
+    expect(Utilities::MPI::sum(balance.wall_dissipation - loss, MPI_COMM_WORLD), 0., 1e-12, what + ": energy lost");
+  };
+  const double out = 0.09 * h, far_out = 0.11 * h;
+  const Tensor<1, 2> falls({ 0.5, -3. }), rises({ 0.5, 3. }), none;
+  test_hold("below the bottom", { middle, -out }, { middle, least }, falls, Tensor<1, 2>({ 0., 6. }));
+  test_hold("on the bottom", { middle, 0.1 * least }, { middle, least }, falls, Tensor<1, 2>({ 0., 6. }));
+  test_hold("on the bottom, upwards", { middle, 0.1 * least }, { middle, least }, rises, none);
+  test_hold("far below the bottom", { middle, -far_out }, { middle, -far_out }, falls, none);
+  test_hold("above the bottom", { middle, 1.01 * least }, { middle, 1.01 * least }, falls, none);
 }
 
 const UnitTest registered("wall_gaps", run);

@@ -2,19 +2,25 @@
 #ifndef scree_contact_cut_cells_clamp_to_box_h
 #define scree_contact_cut_cells_clamp_to_box_h
 
+#include <scree/bodies/water_phase.h>
 #include <scree/mesh/background_grid.h>
 #include <scree/mesh/discrete_level_set.h>
 #include <scree/particles/point_set.h>
+#include <scree/step/budget.h>
 
 namespace scree
 {
-  /// Puts points that have passed a closed face of the box by less than a tenth of a cell back to it. No velocity of
-  /// the nodes carries a point through a wall within a stable step, but that of water in pores may be a multiple of
-  /// theirs (PoreVelocity). What is farther out stays there, as a sign of a step that is not stable.
+  /// Keeps the water's own points a quarter of their size V^(1/dim) away from closed faces of the box: nearer ones are
+  /// put there, and their velocity into the wall goes to the wall. A film cannot be thinner than its points; on the
+  /// wall they would leave the nodes above it without mass. What is farther out than a tenth of a cell stays there, as
+  /// a sign of a step that is not stable.
   ///
   /// @param closed_faces bit f: face f, as in BackgroundGrid::node_faces()
   template <int dim>
-  void clamp_to_box(const BackgroundGrid<dim> &grid, const std::uint8_t closed_faces, PointSet<dim> &points);
+  void keep_off_walls(const BackgroundGrid<dim> &grid,
+                      const std::uint8_t closed_faces,
+                      WaterPhase<dim> &water,
+                      Budget<dim> &balance);
 
   /// Moves a place that is `depth`, m, below ground with this `normal` out of it, and along the closed faces of the box
   /// that it would leave through. Where there is no room between ground and a face, it stays at the face.
