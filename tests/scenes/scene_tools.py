@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the scenes share: running variants of the cases in prm/, reading their statistics and points, checking bounds."""
+"""What the scenes share: running variants of the cases in prm/, reading their statistics, checking bounds."""
 
 import math
 import os
@@ -9,7 +9,7 @@ import sys
 import numpy as np
 
 from scree.closed_forms import GRAVITY
-from scree.results import read_points, read_statistics, read_times
+from scree.results import read_statistics
 from scree.variants import write_variant
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -91,13 +91,6 @@ def released(table):
     return table["Potential energy (J)"][0] - min(table["Potential energy (J)"])
 
 
-def displacements(name):
-    """Of the soil points from the first to the last picture of a run, (n, 3), m."""
-    first, last = (read_points(name, read_times(name)[i]) for i in (0, -1))
-    order = [np.argsort(points.arrays["id"]) for points in (first, last)]
-    return last.positions[order[1]] - first.positions[order[0]]
-
-
 def fraction_within(coordinate, mass, part):
     """The coordinate below which this part of the mass lies."""
     order = np.argsort(coordinate)
@@ -147,12 +140,6 @@ def check_balances(name, table, gain=0.005):
     check_gain(name, table, gain, released(table))
     check(name + ": unresolved returns", table["Unresolved"][-1], 0, 0)
     check(name + ": points lost", table["Points lost"][-1], 0, 0)
-
-
-def check_water(name, table, most=1e-12):
-    """Mass of the water that is there or has left: to rounding, or another bound."""
-    mass, lost = table["Water mass (kg)"], table["Water lost (kg)"]
-    check(name + ": relative change of water mass", max(abs((mass + lost) / mass[0] - 1)), 0, most)
 
 
 def main(scenes):
