@@ -9,12 +9,12 @@ import math
 
 import numpy as np
 
-from scree import closed_forms
+from scree.closed_forms import GRAVITY
 from scree.results import read_points
 
-from scene_tools import check, check_momentum, largest_fall, main, run
+from scene_tools import (NO_STRESS, check, check_gain, check_momentum, fraction_within, gravity_entry, largest_fall, main, pictures, run,
+                         slope_of, turns)
 
-GRAVITY = closed_forms.GRAVITY
 ANGLES = (0, 10, 27, 45)
 OFFSETS = ((0.37, 0.61), (0, 0), (0.9, 0.2))  # of the bed in its cells
 
@@ -30,19 +30,32 @@ class Plane:
         self.slope = math.radians(slope)
         self.gravity = GRAVITY * (math.sin(self.slope) * self.down - math.cos(self.slope) * self.normal)
 
+    @property
+    def side(self):
+        """Across the slope, in space."""
+        return np.cross(self.normal, self.down)
+
     def along(self, direction):
         """The coordinate along a unit vector from the origin, as an expression."""
         return "(%s)" % " + ".join("(%.15g)*(%s - (%.15g))" % (d, axis, o) for d, axis, o in zip(direction, "xyz", self.origin))
 
     def entries(self, ramp=0.1):
         """Bed and gravity, which grows in the first `ramp` s."""
-        return {"Gravity": ", ".join("%.15g" % g for g in self.gravity),
+        return {"Gravity": gravity_entry(self.gravity),
                 "Body force": "; ".join("%.15g*max(0, 1 - t/%g)" % (-g, ramp) for g in self.gravity),
                 "Bed/Level set expression": self.along(self.normal)}
 
     def column(self, table, name, direction):
         """A vector's columns of the statistics along a direction."""
-        return sum(d * np.array(table["%s %s (N s)" % (name, axis)]) for d, axis in zip(direction, "xyz"))
+        return sum(d * table["%s %s (N s)" % (name, axis)] for d, axis in zip(direction, "xyz"))
+
+    def speed(self, table):
+        """Mean speed of the soil down the slope at the times of the rows, m/s."""
+        return self.column(table, "Momentum", self.down) / table["Mass (kg)"][0]
+
+    def sliding(self, friction=0.):
+        """Acceleration over g of a block by Coulomb's law."""
+        return math.sin(self.slope) - friction * math.cos(self.slope)
 
 
 def plane_2d(theta, slope, offset, cell_size=0.05, side=4.):
@@ -59,8 +72,7 @@ def block(plane, length, height, across=None):
     """The region of a block on a plane, whose points begin at the bed."""
     part = "%s > 0 && %s < %g" % (plane.along(plane.down), plane.along(plane.down), length)
     if across is not None:
-        side = np.cross(plane.normal, plane.down)
-        part += " && %s > 0 && %s < %g" % (plane.along(side), plane.along(side), across)
+        part += " && %s > 0 && %s < %g" % (plane.along(plane.side), plane.along(plane.side), across)
     return part + " && %s < %g" % (plane.along(plane.normal), height)
 
 
@@ -77,17 +89,9 @@ def check_bed(name, table):
     """Momentum to rounding with the bed's impulse, nothing below the bed beyond the error of its sampling, no energy from nothing."""
     check_momentum(name, table)
     check(name + ": depth of the deepest point below the bed, m", max(0., -min(table["Least distance from bed (m)"])), 0, 5e-4)
-    released = max(np.ptp(table["Potential energy (J)"]), 1e-300)
-    gain = largest_fall(table["Numerical dissipation (J)"])
-    check(name + ": largest gain of energy over released energy", gain / released, 0, 1e-3)
-    check(name + ": energy that the bed makes over released energy", largest_fall(table["Bed dissipation (J)"]) / released, 0, 1e-3)
-
-
-def slope_of(table, values, start):
-    """Least-squares slope over time from `start` s on."""
-    time = np.array(table["Time (s)"])
-    chosen = time >= start - 1e-9
-    return np.polyfit(time[chosen], values[chosen], 1)[0]
+    over = max(np.ptp(table["Potential energy (J)"]), 1e-300)
+    check_gain(name, table, over=over)
+    check(name + ": energy that the bed makes over released energy", largest_fall(table["Bed dissipation (J)"]) / over, 0, 1e-3)
 
 
 def bed_sliding(scree):
@@ -95,12 +99,9 @@ def bed_sliding(scree):
     worst = 0
     for theta in ANGLES:
         for offset in OFFSETS:
-            slope = max(theta, 27)
-            plane = plane_2d(theta, slope, offset)
+            plane = plane_2d(theta, max(theta, 27), offset)
             table = run_block(scree, "slides", plane, 0.3, {"End time": "0.8"})
-            speed = plane.column(table, "Momentum", plane.down) / table["Mass (kg)"][0]
-            exact = GRAVITY * (math.sin(plane.slope) - 0.3 * math.cos(plane.slope))
-            worst = max(worst, abs(slope_of(table, speed, 0.3) - exact) / GRAVITY)
+            worst = max(worst, abs(slope_of(table, plane.speed(table), 0.3) / GRAVITY - plane.sliding(0.3)))
         check_bed("sliding block, %d degrees" % theta, table)
     check("sliding block: largest error of acceleration over g", worst, 0, 3.3e-4)
 
@@ -111,14 +112,13 @@ def bed_turbulent(scree):
     for theta in ANGLES:
         for cells in (20, 40):
             plane = plane_2d(theta, max(theta, 27), OFFSETS[0])
-            table = run_block(scree, "turbulent", plane, 0.1, {"End time": "0.8", "Bed/Turbulent friction": "%g" % xi, "Mesh/Cell size": "%g" % (1 / cells),
-                                                                  "Soil/Points per cell": "3"})
-            speed = plane.column(table, "Momentum", plane.down) / table["Mass (kg)"][0]
+            table = run_block(scree, "turbulent", plane, 0.1, {"End time": "0.8", "Bed/Turbulent friction": "%g" % xi,
+                                                               "Mesh/Cell size": "%g" % (1 / cells), "Soil/Points per cell": "3"})
             exact, step = 0., 1e-4
             for n in range(8000):
-                pull = GRAVITY * min(n * step / 0.1, 1.) * (math.sin(plane.slope) - 0.1 * math.cos(plane.slope))
+                pull = GRAVITY * min(n * step / 0.1, 1.) * plane.sliding(0.1)
                 exact = (exact + step * pull) / (1 + step * GRAVITY * exact / (xi * height))
-            worst = max(worst, abs(speed[-1] / exact - 1))
+            worst = max(worst, abs(plane.speed(table)[-1] / exact - 1))
         check_bed("turbulent friction, %d degrees" % theta, table)
     check("turbulent friction: largest relative error of the block's speed", worst, 0, 0.01)
 
@@ -129,8 +129,7 @@ def bed_rest(scree):
     for theta in ANGLES:
         plane = plane_2d(theta, min(theta, 27) or 20, OFFSETS[0])
         table = run_block(scree, "rests", plane, 0.6, {"End time": "2", "Output/Statistics interval": "0.01"})
-        speed = plane.column(table, "Momentum", plane.down) / table["Mass (kg)"][0]
-        worst = max(worst, abs(np.mean(speed[np.array(table["Time (s)"]) >= 1.6])))
+        worst = max(worst, abs(np.mean(plane.speed(table)[table["Time (s)"] >= 1.6])))
     check("block at rest: largest creep, m/s", worst, 0, 1e-6)
 
 
@@ -139,23 +138,13 @@ def bed_frictionless(scree):
     for theta in ANGLES:
         plane = plane_2d(theta, 27, OFFSETS[0])
         table = run_block(scree, "smooth", plane, "free slip", {"End time": "0.6"})
-        time, pushed = np.array(table["Time (s)"]), -plane.column(table, "Bed impulse", plane.normal)
-        chosen = time >= 0.3 - 1e-9
+        late = table["Time (s)"] >= 0.3 - 1e-9
         weight = table["Mass (kg)"][0] * GRAVITY * math.cos(plane.slope)
-        force = np.diff(pushed[chosen]) / np.diff(time[chosen]) / weight
+        force = np.diff(-plane.column(table, "Bed impulse", plane.normal)[late]) / np.diff(table["Time (s)"][late]) / weight
         name = "block without friction, %d degrees" % theta
         check(name + ": rms of the force on the bed over the weight", np.std(force), 0, 0.013)
         check(name + ": force on the bed over the weight", np.mean(force), 0.999, 1.001)
-        speed = plane.column(table, "Momentum", plane.down) / table["Mass (kg)"][0]
-        check(name + ": error of acceleration over g", abs(slope_of(table, speed, 0.3) / GRAVITY - math.sin(plane.slope)), 0, 1e-6)
-
-
-def mean_displacement(name, plane):
-    """Of the points in the last picture of a run, along the plane and into it, m."""
-    points = read_points(name)
-    mass = points.arrays["mass"].ravel()
-    mean = mass @ points.arrays["displacement"][:, :2] / mass.sum()
-    return mean @ plane.down, -(mean @ plane.normal)
+        check(name + ": error of acceleration over g", abs(slope_of(table, plane.speed(table), 0.3) / GRAVITY - plane.sliding()), 0, 1e-6)
 
 
 def bed_stick(scree):
@@ -163,43 +152,42 @@ def bed_stick(scree):
     wall of the box and cells of 0.00625 m)."""
     for theta in ANGLES:
         plane = plane_2d(theta, 27, OFFSETS[0])
-        run_block(scree, "sticks", plane, "fixed",
-                  {"End time": "0.5", "Transfer/PIC rate": "100", "Output/Graphics": "points", "Probes/Displacement": "true"})
-        check("stick, %d degrees: displacement over the exact one" % theta, mean_displacement("sticks", plane)[0] / 5.94e-5, 1, 1.06)
+        run_block(scree, "sticks", plane, "fixed", pictures({"End time": "0.5", "Transfer/PIC rate": "100", "Probes/Displacement": "true"}))
+        points = read_points("sticks")
+        moved = np.average(points.arrays["displacement"][:, :2] @ plane.down, weights=points.arrays["mass"].ravel())
+        check("stick, %d degrees: displacement over the exact one" % theta, moved / 5.94e-5, 1, 1.06)
 
 
-def pendulum(region_length, height, radius, start):
-    """Half the period of a body with its lower side on an arc, s."""
-    n = 1000
-    s = ((np.arange(n) + 0.5) / n - 0.5) * region_length
-    sag = radius - math.sqrt(radius**2 - region_length**2 / 4)
-    z = (np.arange(2 * n) + 0.5) / (2 * n) * (height + sag) - sag
-    x, y = np.meshgrid(s, z - (radius - sag))
-    inside = x**2 + y**2 < radius**2
-    a, b = 1., math.cos(start / 2)
-    for _ in range(6):  # arithmetic-geometric mean: the period at any amplitude
-        a, b = (a + b) / 2, math.sqrt(a * b)
-    return math.pi * math.sqrt((x**2 + y**2)[inside].mean() / (GRAVITY * -y[inside].mean())) / a
+RADIUS, START = 2., math.pi / 4  # of the arc, m, and of the block on it at the start
+
+
+def block_on_arc(scree, name, friction, length, height, end):
+    """Statistics of a block that is released on an arc, and the squares and heights of its parts from the middle of the arc, m^2 and m."""
+    normal = np.array([math.sin(START), math.cos(START)])
+    centre = np.array([2 + 0.37 * 0.05, RADIUS + 0.3 + 0.61 * 0.05])
+    down = np.array([normal[1], -normal[0]])
+    sag = RADIUS - math.sqrt(RADIUS**2 - length**2 / 4)
+    plane = Plane(centre - RADIUS * normal - length / 2 * down + sag * normal, normal, down, 0)
+    table = run_block(scree, name, plane, friction,
+                      {"End time": end, "Gravity": "0, %g" % -GRAVITY, "Body force": "",
+                       "Bed/Level set expression": "%g - sqrt((x - %.15g)^2 + (y - %.15g)^2)" % (RADIUS, *centre)},
+                      length=length, height=height)
+    middles = (np.arange(1000) + 0.5) / 1000
+    s, z = np.meshgrid((middles - 0.5) * length, middles * (height + sag) - RADIUS)
+    squares = s**2 + z**2
+    inside = squares < RADIUS**2
+    return table, squares[inside], z[inside]
 
 
 def bed_arc(scree):
     """A block swings on a frictionless arc of 2 m: period and energy."""
-    radius, length, height = 2., 1., 0.3
-    start = math.pi / 4
-    normal = np.array([math.sin(start), math.cos(start)])
-    centre = np.array([2 + 0.37 * 0.05, radius + 0.3 + 0.61 * 0.05])
-    down = np.array([normal[1], -normal[0]])
-    sag = radius - math.sqrt(radius**2 - length**2 / 4)
-    plane = Plane(centre - radius * normal - length / 2 * down + sag * normal, normal, down, 0)
-    table = run_block(scree, "swings", plane, "free slip",
-                      {"End time": "3.2", "Gravity": "0, %g" % -GRAVITY, "Body force": "",
-                       "Bed/Level set expression": "%g - sqrt((x - %.15g)^2 + (y - %.15g)^2)" % (radius, *centre)},
-                      length=length, height=height)
-    time, momentum = np.array(table["Time (s)"]), np.array(table["Momentum x (N s)"])
-    turns = [time[i] - momentum[i] * (time[i + 1] - time[i]) / (momentum[i + 1] - momentum[i])
-             for i in range(5, len(time) - 1) if momentum[i] * momentum[i + 1] < 0]
-    check("arc: half period over that of a pendulum", turns[0] / pendulum(length, height, radius, start), 0.999, 1.001)
-    energy = sum(np.array(table[column + " energy (J)"]) for column in ("Kinetic", "Potential", "Elastic"))
+    table, squares, heights = block_on_arc(scree, "swings", "free slip", 1., 0.3, "3.2")
+    a, b = 1., math.cos(START / 2)
+    for _ in range(6):  # arithmetic-geometric mean: the period at any amplitude
+        a, b = (a + b) / 2, math.sqrt(a * b)
+    pendulum = math.pi * math.sqrt(squares.mean() / (GRAVITY * -heights.mean())) / a
+    check("arc: half period over that of a pendulum", turns(table)[1][0] / pendulum, 0.999, 1.001)
+    energy = sum(table[column + " energy (J)"] for column in ("Kinetic", "Potential", "Elastic"))
     # The prototype loses .7 %, at the same PIC rate; that of its own rotation of the block that a PIC rate takes is in both.
     # The bound of 0.012 is missed (doc/verification/bed_and_contact.md): this guards what is reached.
     check("arc: energy lost over released", (energy[0] - energy[-1]) / np.ptp(table["Potential energy (J)"]), 0, 0.0125)
@@ -212,34 +200,22 @@ def bed_arc_friction(scree):
     With the angle a from the lowest place, mass m, distance r of the centroid from the middle and radius of gyration k about it:
     k^2 a'' = -g r sin a - mu R (g cos a + r a'^2) sign(a'), as the normal forces of a short block are parallel.
     """
-    radius, length, height, start, friction = 2., 0.4, 0.15, math.pi / 4, 0.2
-    normal = np.array([math.sin(start), math.cos(start)])
-    centre = np.array([2 + 0.37 * 0.05, radius + 0.3 + 0.61 * 0.05])
-    down = np.array([normal[1], -normal[0]])
-    sag = radius - math.sqrt(radius**2 - length**2 / 4)
-    plane = Plane(centre - radius * normal - length / 2 * down + sag * normal, normal, down, 0)
-    table = run_block(scree, "rubs", plane, friction,
-                      {"End time": "1.6", "Gravity": "0, %g" % -GRAVITY, "Body force": "",
-                       "Bed/Level set expression": "%g - sqrt((x - %.15g)^2 + (y - %.15g)^2)" % (radius, *centre)},
-                      length=length, height=height)
-    s, z = np.meshgrid(np.linspace(-length / 2, length / 2, 401), np.linspace(0, height + sag, 401) - radius)
-    inside = s**2 + z**2 < radius**2
-    r, k2 = -z[inside].mean(), (s**2 + z**2)[inside].mean()
-    angle, rate, time, dt = start, 0., 0., 1e-4
+    friction = 0.2
+    table, squares, heights = block_on_arc(scree, "rubs", friction, 0.4, 0.15, "1.6")
+    r, k2 = -heights.mean(), squares.mean()
+    angle, rate, time, dt = START, 0., 0., 1e-4
     while rate <= 0.:  # midpoint rule
         half = [a + 0.5 * dt * b for a, b in ((angle, rate), (rate, 0.))]
         for _ in range(3):
-            slope = (-GRAVITY * r * math.sin(half[0]) + friction * radius * (GRAVITY * math.cos(half[0]) + r * half[1]**2)) / k2
+            slope = (-GRAVITY * r * math.sin(half[0]) + friction * RADIUS * (GRAVITY * math.cos(half[0]) + r * half[1]**2)) / k2
             half = [angle + 0.5 * dt * half[1], rate + 0.5 * dt * slope]
         angle, rate, time = angle + dt * half[1], rate + dt * slope, time + dt
-    mass, moment = table["Mass (kg)"][0], np.array(table["Momentum x (N s)"])
-    turn = next(i for i in range(5, len(moment) - 1) if moment[i] < 0 <= moment[i + 1] or moment[i] > 0 >= moment[i + 1])
-    found = table["Time (s)"][turn] - moment[turn] * (table["Time (s)"][turn + 1] - table["Time (s)"][turn]) / (moment[turn + 1] - moment[turn])
+    rows, times = turns(table)
     potential = table["Potential energy (J)"]
-    rise = (potential[turn] - potential[0]) / (mass * GRAVITY) / r  # cos a changes by - rise
-    check("arc with friction: time of the turn over that of the rigid body", found / time, 0.99, 1.01)
+    rise = (potential[rows[0]] - potential[0]) / (table["Mass (kg)"][0] * GRAVITY) / r  # cos a changes by - rise
+    check("arc with friction: time of the turn over that of the rigid body", times[0] / time, 0.99, 1.01)
     check("arc with friction: angle of the turn, degrees, beside that of the rigid body",
-          math.degrees(math.acos(math.cos(start) - rise) - abs(angle)), -0.5, 0.5)
+          math.degrees(math.acos(math.cos(START) - rise) - abs(angle)), -0.5, 0.5)
     check_bed("arc with friction", table)
 
 
@@ -263,17 +239,17 @@ def speed_after_arc(speed, place, time, friction, radius=1., length=0.2, height=
 
 def bed_kink(scree):
     """A small block slides from a slope onto level ground: over an arc, and over a sharp kink."""
+    def speed(table):
+        return np.hypot(table["Momentum x (N s)"], table["Momentum y (N s)"]) / table["Mass (kg)"][0]
+
     arc = run(scree, "bed/kink", "kink", {"Output/Statistics interval": "0.005"})
-    time = np.array(arc["Time (s)"])
-    speed = lambda table: np.hypot(table["Momentum x (N s)"], table["Momentum y (N s)"]) / table["Mass (kg)"][0]
+    time, found = arc["Time (s)"], speed(arc)
     begin, end = np.searchsorted(time, [0.6 - 1e-9, 1.2 - 1e-9])
-    found = speed(arc)
     way = np.concatenate([[0], np.cumsum(0.5 * np.diff(time) * (found[1:] + found[:-1]))])
     exact = speed_after_arc(found[begin], way[begin] - 1, time[end] - time[begin], 0.2)
     check("arc between two planes: speed beyond it over the exact one", found[end] / exact, 0.98, 1.02)
     check_bed("arc between two planes", arc)
-    late = time >= 1.1
-    check("level ground: deceleration over mu g", -np.polyfit(time[late], found[late], 1)[0] / (0.2 * GRAVITY), 0.998, 1.002)
+    check("level ground: deceleration over mu g", -slope_of(arc, found, 1.1) / (0.2 * GRAVITY), 0.998, 1.002)
     sharp = run(scree, "bed/kink", "sharp_kink", {
         "Output/Statistics interval": "0.005",
         "Bed/Level set expression": "min(y - 0.33, (x - 2.22)*sin(35*pi/180) + (y - 1.33)*cos(35*pi/180) + 1)"})
@@ -285,13 +261,12 @@ def bed_kink(scree):
 
 def bed_settled(scree):
     """A layer on a slope against a wall: after settling it rests when it is released."""
-    table = run(scree, "bed/settled_layer", "settled", {"Output/Graphics": "points", "Output/Interval": "0.5"})
-    moved = np.linalg.norm(read_points("settled").arrays["displacement"], axis=1)
-    check("settled layer: largest displacement in .5 s over the cell size", max(moved) / 0.05, 0, 1e-3)
+    table = run(scree, "bed/settled_layer", "settled", pictures({"Output/Interval": "0.5"}))
+    run(scree, "bed/settled_layer", "loose", pictures({"Settling/Maximum time": "0", "Output/Interval": "0.5"}))
+    moved, fall = (max(np.linalg.norm(read_points(name).arrays["displacement"], axis=1)) for name in ("settled", "loose"))
+    check("settled layer: largest displacement in .5 s over the cell size", moved / 0.05, 0, 1e-3)
     check("settled layer: kinetic energy at the end over elastic", table["Kinetic energy (J)"][-1] / table["Elastic energy (J)"][-1], 0, 1e-6)
-    run(scree, "bed/settled_layer", "loose", {"Settling/Maximum time": "0", "Output/Graphics": "points", "Output/Interval": "0.5"})
-    fall = np.linalg.norm(read_points("loose").arrays["displacement"], axis=1)
-    check("the same from a K0 start: largest displacement over that of the settled one", max(fall) / max(moved), 10, 1e9)
+    check("the same from a K0 start: largest displacement over that of the settled one", fall / moved, 10, 1e9)
     check_momentum("settled layer", table)
 
 
@@ -299,10 +274,7 @@ def spread(name, plane):
     """Of the points in the last picture: the distance from the middle within which 90 % of the mass are, and height of the centroid, m."""
     points = read_points(name)
     mass, place = points.arrays["mass"].ravel(), points.positions[:, :2] - plane.origin
-    along, height = np.abs(place @ plane.down), place @ plane.normal
-    order = np.argsort(along)
-    front = along[order][np.searchsorted(np.cumsum(mass[order]), 0.9 * mass.sum())]
-    return front, mass @ height / mass.sum()
+    return fraction_within(np.abs(place @ plane.down), mass, 0.9), np.average(place @ plane.normal, weights=mass)
 
 
 def bed_column(scree):
@@ -314,14 +286,12 @@ def bed_column(scree):
             height = 1 + round(4 * math.sin(angle) / 0.05) * 0.05
             normal = np.array([math.sin(angle), math.cos(angle)])
             plane = Plane((2 + 0.37 * 0.05 - 0.2 * normal[0], height / 2 + 0.61 * 0.05 - 0.3 * normal[1]), normal, (1, 0), 0)
-            s = plane.along(plane.down)
             table = run(scree, "bed/column_on_incline", "collapses",
                         {"End time": "1", "Mesh/Upper corner": "4, %g" % height, **plane.entries(), **kind, "Bed/Profile": "",
-                         "Soil/Region": "abs(%s) < 0.5 && %s < 0.5" % (s, plane.along(normal)),
-                         "Soil/Mohr-Coulomb/Young's modulus": "1e6", "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto",
+                         "Soil/Region": "abs(%s) < 0.5 && %s < 0.5" % (plane.along(plane.down), plane.along(normal)),
+                         "Soil/Mohr-Coulomb/Young's modulus": "1e6", **NO_STRESS,
                          "Soil/Grain density": "1500", "Soil/Initial porosity": "0", "Transfer/Method": "FLIP", "Transfer/PIC rate": "5",
-                         "Boundaries/Left": "open", "Boundaries/Right": "open",
-                         "Output/Graphics": "points", "Output/Interval": "1"})
+                         "Boundaries/Left": "open", "Boundaries/Right": "open", "Output/Graphics": "points", "Output/Interval": "1"})
             found = spread("collapses", plane)
             reference = reference or found
             name = "column, bed %s, %d degrees" % (kind["Bed/Type"], theta)
@@ -341,15 +311,12 @@ def bed_3d(scree):
         plane = Plane((0.52, 0.63, 0.91), normal, (1, 0.4, 0), 27)
         name = "block in 3D, normal " + " ".join("%g" % n for n in normal)
         table = run_block(scree, "slides_3d", plane, 0.3, {**entries, "End time": "0.6"}, 0.6, 0.2, 0.6)
-        speed = plane.column(table, "Momentum", plane.down) / table["Mass (kg)"][0]
-        exact = GRAVITY * (math.sin(plane.slope) - 0.3 * math.cos(plane.slope))
-        check(name + ": error of acceleration over g", abs(slope_of(table, speed, 0.3) - exact) / GRAVITY, 0, 1e-3)
-        across = plane.column(table, "Momentum", np.cross(plane.normal, plane.down)) / table["Mass (kg)"][0]
+        check(name + ": error of acceleration over g", abs(slope_of(table, plane.speed(table), 0.3) / GRAVITY - plane.sliding(0.3)), 0, 1e-3)
+        across = plane.column(table, "Momentum", plane.side) / table["Mass (kg)"][0]
         check(name + ": speed across the slope, m/s", np.max(np.abs(across)), 0, 1e-4)
         check_bed(name, table)
         table = run_block(scree, "rests_3d", plane, 0.6, {**entries, "End time": "1"}, 0.6, 0.2, 0.6)
-        speed = plane.column(table, "Momentum", plane.down) / table["Mass (kg)"][0]
-        check(name + ": creep at rest, m/s", abs(np.mean(speed[np.array(table["Time (s)"]) >= 0.6])), 0, 1e-6)
+        check(name + ": creep at rest, m/s", abs(np.mean(plane.speed(table)[table["Time (s)"] >= 0.6])), 0, 1e-6)
 
 
 if __name__ == "__main__":

@@ -14,15 +14,10 @@ from scree import closed_forms
 from scree.results import read_points, read_times
 from scree.variants import read_case
 
-from scene_tools import ROOT, at, check, check_balances, check_fall, check_momentum, largest_fall, main, run
+from scene_tools import (NO_STRESS, ROOT, WATER, at, check, check_balances, check_fall, check_gain, check_momentum, largest_fall, main,
+                         pictures, released, run)
 
-WATER = 1000 * closed_forms.GRAVITY  # N/m^3
-RIGID = {"Soil/Material": "rigid", "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto"}
-
-
-def pictures(entries=None):
-    """Entries of a run whose points are looked at."""
-    return {"Output/Graphics": "points", **(entries or {})}
+RIGID = {"Soil/Material": "rigid", **NO_STRESS}
 
 
 def check_water(name, table, single=False):
@@ -39,11 +34,9 @@ def check_pure_water(name, table, gain=0.005):
     """Mass and momentum to rounding, no energy from nothing (`gain` as check_balances has it); for scenes without soil."""
     check_water(name, table)
     check_momentum(name, table)
-    released = table["Potential energy (J)"][0] - min(table["Potential energy (J)"])
-    dissipation = table["Numerical dissipation (J)"]
-    check(name + ": largest gain of energy over released energy",
-          largest_fall(dissipation) / released, 0, gain)
-    check(name + ": energy that transfer and steps took, over released (ours)", dissipation[-1] / released, 0, 0.4)
+    check_gain(name, table, gain, released(table))
+    check(name + ": energy that transfer and steps took, over released (ours)",
+          table["Numerical dissipation (J)"][-1] / released(table), 0, 0.4)
 
 
 def speed(table):
