@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/contact/cut_cells/clamp_to_box.h>
+#include <scree/contact/cut_cells/move_inside.h>
 #include <scree/schemes/two_phase_scheme.h>
 
 namespace scree

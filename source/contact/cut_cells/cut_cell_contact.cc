@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/contact/cut_cells/cut_cell_contact.h>
-#include <scree/contact/cut_cells/clamp_to_box.h>
+#include <scree/contact/cut_cells/move_inside.h>
 #include <scree/mixture/mixture.h>
 #include <scree/tensor/vector.h>
 

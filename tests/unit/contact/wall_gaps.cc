@@ -6,7 +6,7 @@
 #include "../test.h"
 
 #include <scree/seeding/seeding.h>
-#include <scree/contact/cut_cells/clamp_to_box.h>
+#include <scree/contact/cut_cells/move_inside.h>
 #include <scree/boundary/wall_gaps.h>
 #include <scree/transfer/water_transfer.h>
 
@@ -166,7 +166,7 @@ void run()
   expect(gated.held().first, n_all, 0., "nodes that a gate and walls hold");
 
   // By default the top is drained. A point of water half a cell wide, 2 kg, on its way out.
-  const double size = 0.5 * h, least = 0.25 * size;
+  const double size = 0.5 * h, least = 0.05 * size;
   const auto test_hold = [&](const std::string &what,
                              const Point<2> &place,
                              const Point<2> &end,

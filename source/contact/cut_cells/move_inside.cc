@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/contact/cut_cells/clamp_to_box.h>
+#include <scree/contact/cut_cells/move_inside.h>
 #include <scree/particles/point_set.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace scree
   namespace
   {
     /// Least distance of water from walls, sizes of a point.
-    constexpr double nearest = 0.25;
+    constexpr double nearest = 0.05;
 
     /// How far a point may be outside, cells.
     constexpr double farthest = 0.1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef scree_contact_cut_cells_clamp_to_box_h
-#define scree_contact_cut_cells_clamp_to_box_h
+#ifndef scree_contact_cut_cells_move_inside_h
+#define scree_contact_cut_cells_move_inside_h
 
 #include <scree/bodies/water_phase.h>
 #include <scree/mesh/background_grid.h>
@@ -10,10 +10,10 @@
 
 namespace scree
 {
-  /// Keeps the water's own points a quarter of their size V^(1/dim) away from closed faces of the box: nearer ones are
-  /// put there, and their velocity into the wall goes to the wall. A film cannot be thinner than its points; on the
-  /// wall they would leave the nodes above it without mass. What is farther out than a tenth of a cell stays there, as
-  /// a sign of a step that is not stable.
+  /// Keeps the water's own points a twentieth of their size V^(1/dim) away from closed faces of the box: nearer ones
+  /// are put there, and their velocity into the wall goes to the wall. Points of a film on the wall itself would leave
+  /// the nodes above it without mass. What is farther out than a tenth of a cell stays there, as a sign of a step that
+  /// is not stable.
   ///
   /// @param closed_faces bit f: face f, as in BackgroundGrid::node_faces()
   template <int dim>
