@@ -248,7 +248,7 @@ namespace scree
               part |= (distance > 0. ? 1u : 0u) << a;
             }
           volumes[i] += weight * lump.volume;
-          const double side = std::min(std::pow(std::max(0., lump.volume), 1. / dim), width);
+          const double side = std::min(edge_of_cube<dim>(std::max(0., lump.volume)), width);
           if (is_close)
             tops[i * n_parts + part] = std::max(tops[i * n_parts + part], lump.location[dim - 1] + 0.5 * side);
         }

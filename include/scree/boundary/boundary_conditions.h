@@ -111,7 +111,7 @@ namespace scree
     /// What the walls do at a node that lies on the given faces of the box.
     std::vector<NodeConstraint<dim>> constraints(const std::uint8_t faces) const;
 
-    /// The directions along which walls without friction hold a node on these faces.
+    /// The directions along which walls that cannot be lifted off, as those for the water, hold a node on these faces.
     ConstrainedDirections<dim> held_directions(const std::uint8_t faces) const
     {
       ConstrainedDirections<dim> held;

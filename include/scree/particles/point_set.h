@@ -13,11 +13,19 @@
 #include <deal.II/particles/property_pool.h>
 
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <memory>
 
 namespace scree
 {
+  /// Edge of the square or cube that has a volume, m: the size of a point.
+  template <int dim>
+  double edge_of_cube(const double volume)
+  {
+    return dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
+  }
+
   /// Processor time of this thread, s: that of others on the machine does not count.
   double thread_time();
 

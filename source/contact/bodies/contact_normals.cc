@@ -133,9 +133,7 @@ namespace scree
         const std::size_t first = balls.size();
         for_each_point(*cell.points, [&](const auto &point) {
           const double volume = point.properties[PropertyLayout<dim>::volume];
-          balls.push_back({ point.reference_location,
-                            volume,
-                            0.5 * (dim == 2 ? std::sqrt(volume) : std::cbrt(volume)) / grid.cell_size() });
+          balls.push_back({ point.reference_location, volume, 0.5 * edge_of_cube<dim>(volume) / grid.cell_size() });
         });
         if (shapes.open != grid.open_knots(number))
           shapes = Shapes(grid.open_knots(number));

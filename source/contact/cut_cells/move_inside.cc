@@ -2,8 +2,6 @@
 #include <scree/contact/cut_cells/move_inside.h>
 #include <scree/particles/point_set.h>
 
-#include <cmath>
-
 namespace scree
 {
   using namespace dealii;
@@ -32,30 +30,29 @@ namespace scree
     for (const auto &cell : water.own_points()->cells())
       {
         const unsigned int faces = grid.open_knots(cell.cell) & closed_faces;
-        for (unsigned int p = 0; faces != 0 && p < cell.n_points; ++p)
-          {
-            double *values         = cell.properties_of(p);
-            const double mass      = values[water.layout.mass];
-            const double clearance = nearest * std::pow(values[water.layout.volume], 1. / dim);
-            for (unsigned int f = 0; f < 2 * dim; ++f)
-              {
-                const unsigned int a = f / 2;
-                const double inward  = f % 2 == 0 ? 1. : -1.;
-                const double wall    = (f % 2 == 0 ? grid.lower_corner() : grid.upper_corner())[a];
-                double &x            = cell.location_of(p)[a];
-                const double gap     = inward * (x - wall);
-                if (!(faces >> f & 1) || gap >= clearance || gap <= -farthest * grid.cell_size())
-                  continue;
-                x                = wall + inward * clearance;
-                double &velocity = values[water.layout.velocity + a];
-                if (inward * velocity >= 0.)
-                  continue;
-                balance.wall_impulse[a] -= mass * velocity;
-                balance.water_walls.of_face[f][a] -= mass * velocity;
-                balance.wall_dissipation += 0.5 * mass * velocity * velocity;
-                velocity = 0.;
-              }
-          }
+        if (faces == 0)
+          continue;
+        for_each_point(cell, [&](const auto &point) {
+          const double clearance = nearest * edge_of_cube<dim>(point.properties[water.layout.volume]);
+          for (unsigned int f = 0; f < 2 * dim; ++f)
+            {
+              const unsigned int a = f / 2;
+              const double inward  = f % 2 == 0 ? 1. : -1.;
+              const double wall    = (f % 2 == 0 ? grid.lower_corner() : grid.upper_corner())[a];
+              const double gap     = inward * (point.location[a] - wall);
+              if (!(faces >> f & 1) || gap >= clearance || gap <= -farthest * grid.cell_size())
+                continue;
+              point.location[a] = wall + inward * clearance;
+              double &velocity  = point.properties[water.layout.velocity + a];
+              if (inward * velocity >= 0.)
+                continue;
+              const double impulse = -point.properties[water.layout.mass] * velocity;
+              balance.wall_impulse[a] += impulse;
+              balance.water_walls.of_face[f][a] += impulse;
+              balance.wall_dissipation -= 0.5 * impulse * velocity;
+              velocity = 0.;
+            }
+        });
       }
   }
 

@@ -255,14 +255,8 @@ void test_jefferies_been(const unsigned int n, RandomNumbers &random)
 template <int dim>
 void test_falling_strength(const unsigned int n, RandomNumbers &random)
 {
-  MohrCoulombParameters soil;
-  soil.young_modulus            = 1e7;
-  soil.cohesion                 = 2e4;
-  soil.friction_angle           = 0;
-  soil.softening.strain         = 0.05;
-  soil.softening.cohesion       = 5e3;
-  soil.softening.friction_angle = 0;
-  const auto has_softened       = [](double *internal, RandomNumbers &numbers) {
+  MohrCoulombParameters soil = softening_clay();
+  const auto has_softened    = [](double *internal, RandomNumbers &numbers) {
     internal[1] = numbers.uniform(0, 0.2);
     internal[2] = internal[1] + numbers.uniform(0, 0.05);
   };

@@ -217,19 +217,6 @@ void test_strength()
 }
 
 
-MohrCoulombParameters clay()
-{
-  MohrCoulombParameters parameters;
-  parameters.young_modulus            = 1e7;
-  parameters.cohesion                 = 2e4;
-  parameters.friction_angle           = 0;
-  parameters.softening.strain         = 0.05;
-  parameters.softening.cohesion       = 5e3;
-  parameters.softening.friction_angle = 0;
-  return parameters;
-}
-
-
 void test_softening(const std::string &name, const MohrCoulombParameters &parameters, RandomNumbers &random)
 {
   const SofteningMohrCoulomb law(parameters);
@@ -303,7 +290,7 @@ void test_peak(const std::string &name, MohrCoulombParameters parameters, Random
 /// Largest error of tau over the peak on a path to gamma = 0.3 in `n` steps, against tau = c(gamma - tau/G).
 double error_of_shear(const unsigned int n)
 {
-  const MohrCoulombParameters parameters = clay();
+  const MohrCoulombParameters parameters = softening_clay();
   const SofteningMohrCoulomb law(parameters);
   const double G = law.shear_modulus(), residual = 5e3, fall = 1.5e4;
   PrincipalValues strain = { { -0.01, -0.01, -0.01 } }, stress; // the law has no friction
@@ -403,7 +390,7 @@ void run()
   test_openings(2000);
   test_strength();
 
-  MohrCoulombParameters falling = clay();
+  MohrCoulombParameters falling = softening_clay();
   test_softening("phi 0, c 20 to 5 kPa", falling, random);
   test_peak("phi 0, c", falling, random);
   falling.tension_cut_off = 2e3;

@@ -5,11 +5,26 @@
 #include "../test.h"
 
 #include <scree/materials/hencky_material.h>
+#include <scree/materials/laws/mohr_coulomb.h>
 
 #include <functional>
 
 namespace scree
 {
+/// Clay whose cohesion falls from 20 to 5 kPa.
+inline MohrCoulombParameters softening_clay()
+{
+  MohrCoulombParameters parameters;
+  parameters.young_modulus            = 1e7;
+  parameters.cohesion                 = 2e4;
+  parameters.friction_angle           = 0;
+  parameters.softening.strain         = 0.05;
+  parameters.softening.cohesion       = 5e3;
+  parameters.softening.friction_angle = 0;
+  return parameters;
+}
+
+
 /// The return of a law for one point, in principal values; says whether it changed anything, and counts in `report`.
 template <typename Law>
 bool return_point(const Law &law,
