@@ -27,13 +27,13 @@ TOPICS = {
     "saturated_slopes": Topic("Saturated slopes", ("saturated_run_out_limits", "saturated_slope", "submerged_slope")),
     "drained_or_coupled": Topic("Drained, coupled or undrained", ("regimes", "point_sets", "single_point")),
     "consolidation": Topic("Consolidation", ("terzaghi", "large_strain")),
-    "free_water": Topic("Free water", ("dam_break", "surface_position")),
+    "free_water": Topic("Free water", ("dam_break",)),
     "impact_and_gaps": Topic("Impact and gaps", ("impact", "air_gap")),
     "infiltration": Topic("Infiltration", ("wetting_front",)),
     "waves_and_convergence": Topic("Waves and convergence", ("bar", "manufactured", "pic_courant")),
-    "soil_models": Topic("Soil models and quality of the stress", ("contours", "nor_sand_density", "low_stress", "bulk_to_shear", "shear_bands")),
+    "soil_models": Topic("Soil models and quality of the stress", ("contours", "nor_sand_density", "low_stress", "shear_bands")),
     "experiments": Topic("Experiments", ("aluminium_bars", "martin_moyce")),
-    "cost": Topic("Cost", ("advice", "scaling", "nothing_costs", "peers")),
+    "cost": Topic("Cost", ("advice", "scaling", "peers")),
 }
 
 
