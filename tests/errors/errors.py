@@ -8,7 +8,7 @@ A table consists of blocks, with the lines of a block indented:
   file profile.csv                            a file that cases name, each line after "| "
     | 0, 0.2
 
-  file other.csv from profile.csv             the same but for the lines of these numbers
+  file other.csv from profile.csv             the same but for the lines of these numbers, of which one may follow the last
     1| 0, 0.3
 
   case cell_size_zero from plain: Mesh/Cell size = 0    the file cell_size_zero.prm: these entries, then the others of the base
@@ -167,7 +167,7 @@ class Tables:
             content = self.files[block.base].splitlines(keepends=True) if block.base else quoted(block)
             for line in block.lines if block.base else ():
                 number, _, text = line.partition("| ")
-                content[int(number) - 1] = as_bytes(text) + b"\n"
+                content[int(number) - 1:int(number)] = [as_bytes(text) + b"\n"]
             self.files[name] = b"".join(content) if block.base else content
         for block in kinds["case"].values():
             if block.base and block.base not in bases:

@@ -4,9 +4,8 @@
 // case come NAME.error.RANK, all that was written to standard error, and NAME.codes, the exit codes of the ranks, into
 // RESULTS.
 //
-// A case finds what a program of its own would find: the files of FOLDER and nothing else, its own communicator, and
-// this process's streams and signal handlers as they were. On several ranks the cases run in the reverse order: what
-// one of them left to the next would show.
+// A case finds what a program of its own would find: the files of FOLDER and nothing else, and its own communicator. On
+// several ranks the cases run in the reverse order: what one of them left to the next would show.
 
 #include <scree/element/element_command_line.h>
 #include <scree/program/command_line.h>
@@ -14,15 +13,12 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <array>
-#include <csignal>
 #include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
-#include <map>
 #include <set>
 #include <sstream>
 #include <unistd.h>
@@ -63,48 +59,13 @@ namespace
   }
 
 
-  /// The folder of the cases, with the files that it has at first.
-  class CaseFolder
+  std::set<fs::path> files_of(const fs::path &folder)
   {
-  public:
-    explicit CaseFolder(const fs::path &folder)
-        : folder(folder)
-    {
-      for (const auto &entry : fs::directory_iterator(folder))
-        {
-          originals[entry.path()] = content(entry.path());
-          written[entry.path()]   = fs::last_write_time(entry.path());
-        }
-    }
-
-    /// As it was at first.
-    void restore()
-    {
-      std::set<fs::path> missing;
-      for (const auto &original : originals)
-        missing.insert(original.first);
-      for (const auto &entry : fs::directory_iterator(folder))
-        if (originals.count(entry.path()) && is_as_written(entry.path()))
-          missing.erase(entry.path());
-        else
-          fs::remove_all(entry.path());
-      for (const fs::path &file : missing)
-        {
-          std::ofstream(file) << originals[file];
-          written[file] = fs::last_write_time(file);
-        }
-    }
-
-  private:
-    bool is_as_written(const fs::path &file)
-    {
-      return fs::is_regular_file(fs::symlink_status(file)) && fs::last_write_time(file) == written[file];
-    }
-
-    fs::path folder;
-    std::map<fs::path, std::string> originals;
-    std::map<fs::path, fs::file_time_type> written;
-  };
+    std::set<fs::path> files;
+    for (const auto &entry : fs::directory_iterator(folder))
+      files.insert(entry.path());
+    return files;
+  }
 
 
   /// Standard output goes nowhere and standard error, also that of libraries in C, to a file, as long as this lives.
@@ -152,28 +113,6 @@ namespace
   };
 
 
-  /// Puts back the handlers of the signals that a run listens to.
-  class SignalHandlers
-  {
-  public:
-    SignalHandlers()
-    {
-      for (std::size_t i = 0; i < signals.size(); ++i)
-        sigaction(signals[i], nullptr, &before[i]);
-    }
-
-    ~SignalHandlers()
-    {
-      for (std::size_t i = 0; i < signals.size(); ++i)
-        sigaction(signals[i], &before[i], nullptr);
-    }
-
-  private:
-    static constexpr std::array<int, 4> signals{ { SIGHUP, SIGTERM, SIGUSR1, SIGINT } };
-    std::array<struct sigaction, 4> before;
-  };
-
-
   /// Runs a case in the present folder, with standard error to a file; returns its exit code on this rank.
   int run(const Case &one, const fs::path &error)
   {
@@ -189,7 +128,6 @@ namespace
     scree::Ending ending;
     {
       const CapturedStreams streams(error);
-      const SignalHandlers handlers;
       ending = scree::run_command_line(one.arguments, communicator);
     }
     if (ending.others_may_wait)
@@ -211,9 +149,7 @@ namespace
     if (n_ranks > 1)
       std::reverse(cases.begin(), cases.end());
 
-    std::unique_ptr<CaseFolder> files;
-    if (rank == 0)
-      files = std::make_unique<CaseFolder>(folder);
+    const std::set<fs::path> files = files_of(folder);
     for (const Case &one : cases)
       {
         if (rank == 0)
@@ -227,7 +163,9 @@ namespace
             std::ofstream out(results / (one.name + ".codes"));
             for (const int code_of_rank : codes)
               out << code_of_rank << ' ';
-            files->restore();
+            for (const fs::path &file : files_of(folder))
+              if (files.count(file) == 0)
+                fs::remove_all(file);
           }
       }
     return 0;
