@@ -5,7 +5,7 @@
 set -e
 cases=$(dirname -- "$0")
 scree=$1
-printf '%s\n' "$(cat "$cases/column_short.prm")" 'subsection Output' '  set Checkpoint interval = 0.03' 'end' >case.prm
+printf '%s\n' "include $cases/column_short.prm" 'subsection Output' '  set Checkpoint interval = 0.03' 'end' >case.prm
 printf '%s\n' "$(cat case.prm)" 'set End time = 0.08' >begin.prm
 
 rm -rf results whole

@@ -30,11 +30,11 @@ for ranks in 2 3; do
   compare around $ranks "$4"
 done
 
-"$PYTHON" - "$case" >wide.prm <<END
-import re, sys
-def twice(found):
-    return found.group(1) + ", ".join(str(2 * float(x)) for x in found.group(2).split(","))
-print(re.sub("(End time *= )(.*)", r"\g<1>0.002", re.sub("(Upper corner *= )(.*)", twice, open(sys.argv[1]).read())))
+"$PYTHON" - "$case" <<END
+import sys
+from scree.variants import read_entries, write_variant
+corner = [2 * float(x) for x in read_entries(sys.argv[1])["Mesh/Upper corner"].split(",")]
+write_variant(sys.argv[1], "wide.prm", {"End time": 0.002, "Mesh/Upper corner": ", ".join(map(str, corner))})
 END
 run wide 1 "$PWD/wide.prm"
 for size in around wide; do

@@ -13,6 +13,7 @@ import numpy as np
 
 from scree.maps import find_map
 from scree.results import read_raster, read_table
+from scree.variants import read_case
 
 from case_tools import HERE, check, run
 
@@ -99,7 +100,7 @@ def block():
 
 def slide():
     """A block on an oblique bed: the maps hold its mass; two ranks and a resumed run have those of one that did not stop."""
-    text = (HERE / "bed_short_3d.prm").read_text(encoding="utf-8") + MAPS
+    text = read_case(HERE / "bed_short_3d.prm") + MAPS
     text += "subsection Soil\n  set Initial velocity = 1; 0.3; -0.46\nend\n"  # along the bed
     one = run("one", text)
     first = {name: read_map(one, name) for name in NAMES}

@@ -13,8 +13,7 @@ end'
 # base CASE: the short run of the case whose checkpoints are resumed below
 base()
 {
-  case=$cases/$1.prm
-  printf '%s\n' "$(cat "$case")" "$short" >base.prm
+  printf '%s\n' "include $cases/$1.prm" "$short" >base.prm
   rm -rf results
   "$scree" base.prm >screen
   rm -rf whole
