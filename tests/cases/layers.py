@@ -9,7 +9,7 @@ import sys
 import numpy as np
 
 from scree.results import read_points
-from scree.variants import set_entry
+from scree.variants import set_entries
 
 from case_tools import HERE, check, run
 
@@ -17,18 +17,11 @@ CASE = (HERE.parent.parent / "prm" / "slopes" / "entrainment.prm").read_text(enc
 DENSITY, STRENGTH, DOWNHILL = 1590., 6e3, 4.1459  # kg/m^3, Pa, m/s^2 along the slope
 
 
-def changed(**entries):
-    text = set_entry(CASE, "Output directory", "results")
-    for name, value in entries.items():
-        text = set_entry(text, name.replace("__", "/").replace("_", " "), value)
-    return text
-
-
 def threshold():
     """A slab on a layer of clay s_u: it rests below s_u/(rho g sin) and moves with g sin - s_u/(rho H) above, here 0.91 m and 1.63 m/s^2."""
-    slab = {"End_time": "1", "Output__Interval": "1"}
+    slab = {"Output directory": "results", "End time": 1, "Output/Interval": 1}
     for height, cell in ((0.87, "0.25"), (1.5, "0.125")):
-        results = run(f"slab_{height}", changed(Slide__Region=f"x < 40 && y > 0.5 && y < {height}", Mesh__Cell_size=cell, **slab))
+        results = run(f"slab_{height}", set_entries(CASE, {**slab, "Slide/Region": f"x < 40 && y > 0.5 && y < {height}", "Mesh/Cell size": cell}))
         points = read_points(results)
         velocity = next(values for name, values in points.arrays.items() if name.startswith("velocity"))[:, 0]
         x, y = points.positions[:, 0], points.positions[:, 1]

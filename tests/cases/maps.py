@@ -13,37 +13,16 @@ import numpy as np
 
 from scree.maps import find_map
 from scree.results import read_raster, read_table
-from scree.variants import read_case
+from scree.variants import read_case, set_entries
 
 from case_tools import HERE, check, run
 
 NAMES = ["thickness", "mass", "deposit", "largest_thickness", "largest_speed", "largest_impact_pressure", "arrival_time"]
-MAPS = """
-subsection Output
-  subsection Maps
-    set Write           = true
-    set Least thickness = 0.02
-  end
-end
-"""
-BLOCK = """
-set Dimension = 3
-set Gravity   = 0, 0, 0
-set End time  = 0.1
-set Output directory = results
-subsection Mesh
-  set Lower corner = 600000, 5100000, 1000
-  set Upper corner = 600001.2, 5100000.8, 1000.8
-  set Cell size    = 0.1
-end
-subsection Soil
-  set Points per cell  = 4
-  set Region           = x > 600000.2 && x < 600000.5 && y > 5100000.1 && y < 5100000.3 && z > 1000.2 && z < 1000.6
-  set Material         = linear elastic
-  set Grain density    = 2000
-  set Initial velocity = 3; 0; 1
-end
-"""
+MAPS = {"Output/Maps/Write": "true", "Output/Maps/Least thickness": 0.02}
+BLOCK = {"Dimension": 3, "Gravity": "0, 0, 0", "End time": 0.1, "Mesh/Lower corner": "600000, 5100000, 1000",
+         "Mesh/Upper corner": "600001.2, 5100000.8, 1000.8", "Soil/Points per cell": 4, "Soil/Material": "linear elastic", "Soil/Grain density": 2000,
+         "Soil/Region": "x > 600000.2 && x < 600000.5 && y > 5100000.1 && y < 5100000.3 && z > 1000.2 && z < 1000.6",
+         "Soil/Initial velocity": "3; 0; 1", **MAPS}
 
 
 def read_map(results, name):
@@ -72,7 +51,7 @@ def close(values, wanted, what):
 
 def block():
     """A block that flies with 3 m/s along x, and rises: 0.3 m in the run, to ground that it had not covered."""
-    results = run("block", BLOCK + MAPS)
+    results = run("block", BLOCK)
     raster = read_raster(results / "maps" / "thickness.asc")
     head = [*raster.values.shape[::-1], raster.x, raster.y, raster.width]
     check(head == [12, 8, 600000, 5100000, 0.1], f"head: {head}")
@@ -100,8 +79,7 @@ def block():
 
 def slide():
     """A block on an oblique bed: the maps hold its mass; two ranks and a resumed run have those of one that did not stop."""
-    text = read_case(HERE / "bed_short_3d.prm") + MAPS
-    text += "subsection Soil\n  set Initial velocity = 1; 0.3; -0.46\nend\n"  # along the bed
+    text = set_entries(read_case(HERE / "bed_short_3d.prm"), {**MAPS, "Soil/Initial velocity": "1; 0.3; -0.46"})  # along the bed
     one = run("one", text)
     first = {name: read_map(one, name) for name in NAMES}
     statistics = read_table(one / "statistics")
@@ -127,11 +105,10 @@ def slide():
 
 def profile():
     """The block in the plane: a table along x. It rises and flies with 3 m/s along x."""
-    plane = BLOCK.replace("set Dimension = 3\n", "").replace("0, 0, 0", "0, 0")
-    plane = plane.replace("600000, 5100000, 1000", "600000, 1000").replace("600001.2, 5100000.8, 1000.8", "600001.2, 1000.8")
-    plane = plane.replace("y > 5100000.1 && y < 5100000.3 && z > 1000.2 && z < 1000.6", "y > 1000.2 && y < 1000.6").replace("3; 0; 1", "3; 1")
+    plane = {**BLOCK, "Dimension": 2, "Gravity": "0, 0", "Mesh/Lower corner": "600000, 1000", "Mesh/Upper corner": "600001.2, 1000.8",
+             "Soil/Region": "x > 600000.2 && x < 600000.5 && y > 1000.2 && y < 1000.6", "Soil/Initial velocity": "3; 1"}
     for ranks in (1, 2):
-        results = run(f"profile_{ranks}", plane + MAPS, ranks=ranks)
+        results = run(f"profile_{ranks}", plane, ranks=ranks)
         table = read_profile(results)
         close(table["x_m"], 600000 + 0.1 * (np.arange(12) + 0.5), "x")
         at_end = np.zeros(12)
@@ -150,7 +127,7 @@ def profile():
         check((results / "maps" / "profile_0.0s.csv").exists() and (results / "maps" / "profile_0.1s.csv").exists(), "profiles of their times")
 
     # Slowed down from 3 to 2 m/s: where it is at the start, that is its largest speed, and its largest pressure.
-    table = read_profile(run("slowed", "set Body force = -10; 0\n" + plane + MAPS))
+    table = read_profile(run("slowed", {**plane, "Body force": "-10; 0"}))
     speed = table["largest_speed_m_s"]
     close(speed[at_start >= 0.02], np.sqrt(10), "largest speed of what slows down")
     check(0 < np.min(speed[speed > 0]) < 3, "nothing is reached late")
@@ -160,9 +137,7 @@ def profile():
 def geo_tiff():
     """The block's maps as GeoTIFF have the values and places of the ASCII grids, and the coordinate system of the case.
     A run in one format removes the maps of another."""
-    formats = MAPS.replace("set Write ", "set Format          = ASCII grid and GeoTIFF\n    set Write ")
-    case = BLOCK + formats
-    results = run("geo_tiff", "set Coordinate system = EPSG:2056\n" + case)
+    results = run("geo_tiff", {**BLOCK, "Coordinate system": "EPSG:2056", "Output/Maps/Format": "ASCII grid and GeoTIFF"})
     log = (results / "log.txt").read_text(encoding="utf-8")
     check("Coordinate system of the maps: EPSG:2056" in log, "log")
     for name in ("thickness_0.0s", "thickness", "deposit", "arrival_time"):
@@ -173,13 +148,13 @@ def geo_tiff():
         check("CH1903+_LV95" in (results / "maps" / f"{name}.prj").read_text(encoding="utf-8"), f"{name}: .prj")
     # The program reads its own map, with its system: a raster of another one does not go with it.
     shutil.copy(results / "maps" / "thickness_0.0s.tif", "release.tif")
-    text = BLOCK.replace("set Region           = x > 600000.2 && x < 600000.5 && y > 5100000.1 && y < 5100000.3 && z > 1000.2 && z < 1000.6",
-                         "set Thickness = ../release.tif") + "subsection Bed\n  set Type = fixed\n  set Level set expression = z - 1000.2\nend\n"
-    again = run("geo_tiff", text + MAPS.replace("set Write ", "set Format          = GeoTIFF\n    set Write "))
+    case = {**BLOCK, "Soil/Thickness": "../release.tif", "Bed/Type": "fixed", "Bed/Level set expression": "z - 1000.2", "Output/Maps/Format": "GeoTIFF"}
+    del case["Soil/Region"]
+    again = run("geo_tiff", case)
     check("Coordinate system of the maps: EPSG:2056" in (again / "log.txt").read_text(encoding="utf-8"), "system of the raster")
     check(not list((again / "maps").glob("*.asc")) and not list((again / "maps").glob("*.prj")), "maps of the run before are left")
     first, second = (read_map(again, "thickness_0.0s"), read_raster("release.tif").values[::-1])
     check(abs(np.nansum(first) / np.nansum(second) - 1) < 0.05, "thickness of the soil from its own map")
 
 
-{"block": block, "geo_tiff": geo_tiff, "slide": slide, "profile": profile}[sys.argv[3]]()
+globals()[sys.argv[3]]()

@@ -13,19 +13,12 @@ from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 
 from scree.pictures.tables import render_probe
 from scree.results import read_points, read_statistics, read_table, read_times
+from scree.variants import set_entries
 
 from case_tools import HERE, check, run
 
 DRY = (HERE / "probes.prm").read_text(encoding="utf-8")
-WATER = """
-subsection Water
-  set Region                 = x < 0.7 && y < 0.4
-  set Hydraulic conductivity = 5e-3
-  subsection Pressure
-    set Relative tolerance = 1e-12
-  end
-end
-"""
+WATER = {"Water/Region": "x < 0.7 && y < 0.4", "Water/Hydraulic conductivity": 5e-3, "Water/Pressure/Relative tolerance": 1e-12}
 FILES = ["probe_" + name for name in ("toe", "far", "base", "mid", "crest", "front", "walls")]
 
 
@@ -132,42 +125,12 @@ def balance_of_momentum(results, axes="xy"):
 
 def edges():
     """The balance in 3D, with walls of all kinds that meet at edges and corners."""
-    text = """
-set Dimension        = 3
-set End time         = 0.02
-set Output directory = results
-set Gravity          = 0, 0, -9.81
-subsection Mesh
-  set Lower corner = 0, 0, 0
-  set Upper corner = 0.6, 0.4, 0.6
-end
-subsection Boundaries
-  set Left   = friction 20
-  set Front  = fixed
-  set Bottom = friction 30
-end
-subsection Soil
-  set Region           = x < 0.3 && z < 0.4
-  set Points per cell  = 2
-  set Initial velocity = -0.2; 0.1; 0
-  subsection Initial state
-    set Type = K0
-    set K0   = 0.683
-  end
-end
-subsection Output
-  set Interval = 0.005
-  set Screen   = nothing
-  set Graphics = none
-end
-subsection Probes
-  set Places          = toe: 0.1, 0.1, 0.1
-  set Verticals       = crest: 0.1, 0.2
-  set Front thickness = 0.1
-  set Wall forces     = true
-end
-"""
-    results = run("edges", text)
+    results = run("edges", {
+        "Dimension": 3, "End time": 0.02, "Gravity": "0, 0, -9.81", "Mesh/Lower corner": "0, 0, 0", "Mesh/Upper corner": "0.6, 0.4, 0.6",
+        "Boundaries/Left": "friction 20", "Boundaries/Front": "fixed", "Boundaries/Bottom": "friction 30",
+        "Soil/Region": "x < 0.3 && z < 0.4", "Soil/Points per cell": 2, "Soil/Initial velocity": "-0.2; 0.1; 0",
+        "Soil/Initial state/Type": "K0", "Soil/Initial state/K0": 0.683, "Output/Interval": 0.005, "Output/Graphics": "none",
+        "Probes/Places": "toe: 0.1, 0.1, 0.1", "Probes/Verticals": "crest: 0.1, 0.2", "Probes/Front thickness": 0.1, "Probes/Wall forces": "true"})
     balance_of_momentum(results, "xyz")
     crest = read_table(results / "probe_crest")
     check(abs(crest["Surface height (m)"][0] - 0.4) < 1e-9 and abs(crest["Thickness (m)"][0] - 0.4) < 1e-9, "height in 3D")
@@ -189,41 +152,17 @@ def displacements(results):
 
 def water():
     """Both phases on one rank and two, with friction of the floor; water at rest: p, level, and forces on the walls."""
-    short = DRY.replace("End time         = 0.12", "End time = 0.06") + WATER
+    short = set_entries(DRY, {"End time": 0.06, **WATER})
     one, two = run("one", short), run("two", short, ranks=2)
     compare(one, two, 1e-5)
     walls = read_table(one / "probe_walls")
     friction = walls["Bottom soil x (N)"][1:] / -walls["Bottom soil y (N)"][1:]
     check(np.all(friction > 0.1) and np.all(friction < 0.6), f"friction of wet soil on the floor over its pressure: {friction}")
 
-    still = run("still", """
-set End time         = 0.02
-set Output directory = results
-set Bodies           = none
-subsection Mesh
-  set Upper corner = 0.4, 0.8
-end
-subsection Time step
-  set Maximum time step = 2e-3
-end
-subsection Transfer
-  set Method = TPIC
-end
-subsection Water
-  set Region = y < 0.5
-end
-subsection Output
-  set Interval = 0.01
-  set Screen   = nothing
-end
-subsection Probes
-  set Places          = gauge: 0.13, 0.2
-  set Lines           = base: 0, 0 to 0, 0.4; mid: 0.2, 0.1 to 0.2, 0.7
-  set Verticals       = crest: 0.1
-  set Front thickness = 0.05
-  set Wall forces     = true
-end
-""")
+    still = run("still", {
+        "End time": 0.02, "Bodies": "none", "Mesh/Upper corner": "0.4, 0.8", "Time step/Maximum time step": 2e-3, "Transfer/Method": "TPIC",
+        "Water/Region": "y < 0.5", "Output/Interval": 0.01, "Probes/Places": "gauge: 0.13, 0.2", "Probes/Verticals": "crest: 0.1",
+        "Probes/Lines": "base: 0, 0 to 0, 0.4; mid: 0.2, 0.1 to 0.2, 0.7", "Probes/Front thickness": 0.05, "Probes/Wall forces": "true"})
     weight = 1000 * 9.81
     gauge, base, walls = (read_table(still / ("probe_" + name)) for name in ("gauge", "base", "walls"))
     check(np.allclose(gauge["Pore pressure (Pa)"], 0.3 * weight, rtol=1e-4), "p in still water")  # 5e-5: points are no exact rule for the mass

@@ -10,19 +10,15 @@ import sys
 import time
 
 from case_tools import HERE, SCREE, check, run
-from scree.variants import read_case, set_entry
+from scree.variants import read_case, set_entries
 
 CASE = HERE.parents[1] / "prm/slopes/griffiths_lane.prm"
-
-
 WET = HERE.parents[1] / "prm/slopes/griffiths_lane_water.prm"
 
 
 def slope(case=CASE, **entries):
-    text = read_case(case)
-    for name, value in {"Mesh/Cell size": 1, "Output directory": "results", "Safety/Lower factor": 1, "Safety/Upper factor": 1.6, "Safety/Tolerance": 0.05, **entries}.items():
-        text = set_entry(text, name, value)
-    return text
+    return set_entries(read_case(case), {"Mesh/Cell size": 1, "Output directory": "results", "Safety/Lower factor": 1, "Safety/Upper factor": 1.6,
+                                         "Safety/Tolerance": 0.05, **entries})
 
 
 def trials(folder):
@@ -109,10 +105,10 @@ def parallel_seepage():
     """A layer with seepage parallel to its slope: F = 1.244 of the infinite slope with associated flow; without dilation F is lower, as the
     layer shears at sin(phi) in place of tan(phi) (Davis 1968), which is 0.74."""
     for dilation, low, high in (45, 0.94 * 1.244, 1.06 * 1.244), (0, 0.74, 1.244):
-        text = set_entry(read_case(HERE / "parallel_seepage.prm"), "Soil/Mohr-Coulomb/Dilation angle", dilation)
+        text = set_entries(read_case(HERE / "parallel_seepage.prm"), {"Soil/Mohr-Coulomb/Dilation angle": dilation})
         rests, fails = bracket(trials(run(f"dilation_{dilation}", text, "--safety")))
         print(f"dilation {dilation} degrees: between {rests:g} and {fails:g}")
         check(low < rests and fails < high, f"the factor is not between {low:g} and {high:g}")
 
 
-{"factor": factor, "range_and_stop": range_and_stop, "under_water": under_water, "parallel_seepage": parallel_seepage, "clay_cut": clay_cut, "clay_graded_slope": clay_graded_slope}[sys.argv[3]]()
+globals()[sys.argv[3]]()

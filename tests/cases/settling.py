@@ -6,7 +6,7 @@ import re
 import sys
 
 from case_tools import HERE, check, run
-from scree.variants import read_case, set_entry
+from scree.variants import read_case, set_entries
 
 CASE = HERE.parents[1] / "prm/slopes/griffiths_lane.prm"
 REGION = "y < 5 || y < 15 && y < 5 + (34 - x)/2"
@@ -16,11 +16,8 @@ SETTLEMENT = DENSITY * GRAVITY * (HEIGHT + FOUNDATION - 1 / 3)**2 / (2 * MODULUS
 
 
 def slope(**entries):
-    text = read_case(CASE)
-    for name, value in {"Mesh/Cell size": 1, "Mesh/Upper corner": "45, 17", "Soil/Region": REGION, "Output directory": "results", "Settling/Maximum time": 20,
-                        "End time": 3, **entries}.items():
-        text = set_entry(text, name, value)
-    return text
+    return set_entries(read_case(CASE), {"Mesh/Cell size": 1, "Mesh/Upper corner": "45, 17", "Soil/Region": REGION, "Output directory": "results",
+                                         "Settling/Maximum time": 20, "End time": 3, **entries})
 
 
 def log_of(folder):

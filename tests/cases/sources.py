@@ -17,36 +17,11 @@ from case_tools import check, run
 
 SPACING, CORNER, COLUMNS, ROWS = 5., (1000., 2000.), 41, 33
 DENSITY = 1500.
-TEXT = """
-set Dimension        = 3
-set Gravity          = 0, 0, -9.81
-set End time         = 1e-3
-set Output directory = results
-subsection Mesh
-  set Lower corner = 1010, 2010, 80
-  set Upper corner = 1190, 2150, 230
-  set Cell size    = 5
-end
-subsection Bed
-  set Type   = fixed
-  set Raster = ../bed.asc
-end
-subsection Soil
-  set Material      = linear elastic
-  set Grain density = 1500
-  set Points per cell = 3
-  subsection Linear elastic
-    set Young's modulus = 1e6
-  end
-%s
-end
-subsection Output
-  set Graphics = none
-  subsection Maps
-    set Write = true
-  end
-end
-"""
+SLIDE = {"Dimension": 3, "Gravity": "0, 0, -9.81", "End time": 1e-3, "Mesh/Lower corner": "1010, 2010, 80", "Mesh/Upper corner": "1190, 2150, 230",
+         "Mesh/Cell size": 5, "Bed/Type": "fixed", "Bed/Raster": "../bed.asc", "Soil/Material": "linear elastic", "Soil/Grain density": 1500,
+         "Soil/Points per cell": 3, "Soil/Linear elastic/Young's modulus": 1e6, "Output/Graphics": "none", "Output/Maps/Write": "true"}
+THICKNESS = {"Soil/Thickness": "../thickness.asc"}
+LEVELS = {"Soil/Region": "z > 202.5 && z < 220"}
 
 
 def write_raster(name, values):
@@ -77,8 +52,7 @@ def thickness():
     """A slide as thick as a map says weighs what the map holds, and lies where it says, on one rank and two."""
     _, values = mountain()
     exact = DENSITY * SPACING**2 * np.nansum(values)
-    source = "  set Thickness = ../thickness.asc"
-    results = run("thickness", TEXT % source)
+    results = run("thickness", {**SLIDE, **THICKNESS})
     relative = mass_of(results) / exact - 1
     print(f"mass over that of the map - 1: {relative:.2e}")
     check(abs(relative) <= 0.01, f"mass: {relative}")
@@ -89,7 +63,7 @@ def thickness():
     difference = np.max(np.abs(np.nan_to_num(seeded) - there))
     print(f"largest difference of the thickness: {difference:.2e} m of 20 m")
     check(seeded.shape == there.shape and difference <= 1., f"thickness: {difference}")
-    two = mass_of(run("two_ranks", TEXT % source, ranks=2))
+    two = mass_of(run("two_ranks", {**SLIDE, **THICKNESS}, ranks=2))
     check(abs(two / mass_of(results) - 1) <= 1e-12, f"mass on two ranks: {two}")
 
 
@@ -99,7 +73,7 @@ def surfaces():
     # Where a height is missing, so is the soil around it: whole squares count.
     corners = [values[j:ROWS - 1 + j, i:COLUMNS - 1 + i] for j in (0, 1) for i in (0, 1)]
     exact = DENSITY * SPACING**2 * np.nansum(sum(corners) / 4)
-    mass = mass_of(run("above", TEXT % "  set Upper surface = ../upper.asc"))
+    mass = mass_of(run("above", {**SLIDE, "Soil/Upper surface": "../upper.asc"}))
     print(f"upper surface: mass over the exact one - 1: {mass / exact - 1:.2e}")
     check(abs(mass / exact - 1) <= 0.01, f"upper surface: {mass / exact - 1}")
 
@@ -107,7 +81,7 @@ def surfaces():
     pathlib.Path("outline.csv").write_text("x, y\n" + "".join("%g, %g\n" % tuple(c) for c in np.vstack([corners, corners[:1]])), encoding="utf-8")
     x, y = corners.T
     area = 0.5 * abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
-    mass = mass_of(run("outline", TEXT % "  set Region = z > 202.5 && z < 220\n  set Outline = ../outline.csv"))
+    mass = mass_of(run("outline", {**SLIDE, **LEVELS, "Soil/Outline": "../outline.csv"}))
     relative = mass / (DENSITY * area * 17.5) - 1
     print(f"outline: mass over the exact one - 1: {relative:.2e}")
     check(abs(relative) <= 0.01, f"outline: {relative}")
@@ -137,12 +111,12 @@ def outlines():
         gdal.VectorTranslate(file, made_of, options=["-a_srs", "EPSG:31254"])
     gdal.OpenEx("multi.gpkg", gdal.OF_UPDATE).CreateLayer("layer_styles", geom_type=ogr.wkbNone)  # as QGIS does
     for file, exact in (("multi.gpkg", area), ("two.geojson", area), ("shape.shp", area), ("overlap.geojson", 33 * 41 + 25 * 35 - corner)):
-        mass = mass_of(run(f"in_{file}", TEXT % f"  set Region = z > 202.5 && z < 220\n  set Outline = ../{file}"))
+        mass = mass_of(run(f"in_{file}", {**SLIDE, **LEVELS, "Soil/Outline": f"../{file}"}))
         relative = mass / (DENSITY * exact * 17.5) - 1
         print(f"{file}: mass over the exact one - 1: {relative:.2e}")
         check(abs(relative) <= 0.01, f"{file}: {relative}")
-    slide = mass_of(run("cut", TEXT % "  set Thickness = ../thickness.asc\n  set Outline = ../two.geojson"))
-    check(0.2 < slide / mass_of(run("uncut", TEXT % "  set Thickness = ../thickness.asc")) < 0.8, f"a map of the thickness is not cut: {slide}")
+    slide = mass_of(run("cut", {**SLIDE, **THICKNESS, "Soil/Outline": "../two.geojson"}))
+    check(0.2 < slide / mass_of(run("uncut", {**SLIDE, **THICKNESS})) < 0.8, f"a map of the thickness is not cut: {slide}")
 
 
 def shifted():
@@ -153,17 +127,16 @@ def shifted():
         mountain()
         outline = np.array([(50., 40.), (150., 50.), (130., 130.), (60., 110.)]) + corner
         pathlib.Path("outline.csv").write_text("".join("%.17g, %.17g\n" % tuple(place) for place in outline), encoding="utf-8")
-    text = TEXT.replace("End time         = 1e-3", "End time         = 0.2") % "  set Thickness = ../thickness.asc\n  set Outline = ../outline.csv"
-    text = text.replace("1010, 2010, 80", "10, 10, 80").replace("1190, 2150, 230", "190, 150, 230")
-    text = text.replace("set Type   = fixed", "set Type   = friction\n  set Friction angle = 25")
+    case = {**SLIDE, **THICKNESS, "Soil/Outline": "../outline.csv", "End time": 0.2, "Mesh/Lower corner": "10, 10, 80", "Mesh/Upper corner": "190, 150, 230",
+            "Bed/Type": "friction", "Bed/Friction angle": 25}
     far = (2.6e6, 1.2e6)
     system = 'PROJCS["CH1903+_LV95"]'
     pathlib.Path("bed.prj").unlink(missing_ok=True)  # of the run before
     write_all((0., 0.))
-    near = run("near", text)
+    near = run("near", case)
     write_all(far)
     pathlib.Path("bed.prj").write_text(system, encoding="utf-8")
-    moved = run("far", "set Local origin = %.17g, %.17g\n" % far + text)
+    moved = run("far", {**case, "Local origin": "%.17g, %.17g" % far})
     rows = [read_statistics(results) for results in (near, moved)]
     for name, values in rows[0].items():
         difference = np.max(np.abs(values - rows[1][name])) / max(np.max(np.abs(values)), 1e-9)
@@ -177,4 +150,4 @@ def shifted():
     check("Local origin" in (moved / "log.txt").read_text(encoding="utf-8"), "log")
 
 
-{"thickness": thickness, "surfaces": surfaces, "outlines": outlines, "shifted": shifted}[sys.argv[3]]()
+globals()[sys.argv[3]]()

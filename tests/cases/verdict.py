@@ -15,66 +15,15 @@ from scree.results import read_table
 
 from case_tools import SCREE, check, run
 
-BOX = """
-set Dimension        = {dim}
-set Gravity          = {gravity}
-set End time         = {end}
-set Output directory = results
-subsection Mesh
-  set Lower corner = {lower}
-  set Upper corner = {corner}
-  set Cell size    = {cell}
-end
-subsection Output
-  set Graphics            = none
-  set Statistics interval = {rows}
-end
-"""
+RUN = {"Output/Graphics": "none", "Soil/Material": "linear elastic", "Soil/Grain density": 1500}
 # A slab on a plane of 30 degrees that falls along -y; it is 0.16 m thick normal to the plane, .8 of a cell.
-SLAB = BOX.format(dim=3, lower="0, 0, 0", gravity="0, 0, -9.81", end=0.5, corner="2, 6, 4", cell=0.2, rows=0.1) + """
-subsection Bed
-  set Type                 = free slip
-  set Level set expression = (z - 0.3 - y*tan(pi/6))*cos(pi/6)
-end
-subsection Boundaries
-  set Bottom = open
-end
-subsection Soil
-  set Region          = x > 0.4 && x < 1.6 && y > 3.6 && y < 5.2 && z < 0.3 + y*tan(pi/6) + 0.16/cos(pi/6)
-  set Points per cell = 3
-  set Material        = linear elastic
-  set Grain density   = 1500
-  subsection Linear elastic
-    set Young's modulus = 2e6
-  end
-end
-subsection Output
-  subsection Maps
-    set Write = true
-  end
-end
-"""
-LAYER = BOX.format(dim=2, lower="0, 0", gravity="0, -9.81", end=0.02, corner="2, 1.2", cell=0.1, rows=0.01) + """
-subsection Soil
-  set Region          = y < 1
-  set Points per cell = 2
-  set Material        = {law}
-  set Grain density   = 1500
-  subsection Mohr-Coulomb
-    set Young's modulus = 1e7
-    set Friction angle  = {friction}
-    set Dilation angle  = {dilation}
-    set Cohesion        = {cohesion}
-  end
-  subsection Linear elastic
-    set Young's modulus = 1e7
-  end
-  subsection Initial state
-    set Type = {start}
-  end
-  {more}
-end
-"""
+SLAB = {**RUN, "Dimension": 3, "Gravity": "0, 0, -9.81", "End time": 0.5, "Mesh/Lower corner": "0, 0, 0", "Mesh/Upper corner": "2, 6, 4",
+        "Mesh/Cell size": 0.2, "Output/Statistics interval": 0.1, "Output/Maps/Write": "true", "Boundaries/Bottom": "open",
+        "Bed/Type": "free slip", "Bed/Level set expression": "(z - 0.3 - y*tan(pi/6))*cos(pi/6)", "Soil/Points per cell": 3,
+        "Soil/Region": "x > 0.4 && x < 1.6 && y > 3.6 && y < 5.2 && z < 0.3 + y*tan(pi/6) + 0.16/cos(pi/6)",
+        "Soil/Linear elastic/Young's modulus": 2e6}
+LAYER = {**RUN, "End time": 0.02, "Mesh/Upper corner": "2, 1.2", "Output/Statistics interval": 0.01, "Soil/Region": "y < 1",
+         "Soil/Points per cell": 2, "Soil/Linear elastic/Young's modulus": 1e7, "Soil/Initial state/Type": "K0"}
 
 
 def log_of(results):
@@ -82,8 +31,8 @@ def log_of(results):
     return report.read_log(results)
 
 
-def layer(folder, law="Mohr-Coulomb", friction=35, dilation=0, cohesion=0, start="K0", more="", entries=""):
-    return log_of(run(folder, LAYER.format(law=law, friction=friction, dilation=dilation, cohesion=cohesion, start=start, more=more) + entries))
+def layer(folder, **entries):
+    return log_of(run(folder, {**LAYER, **entries}))
 
 
 def last_row(results):
@@ -118,7 +67,7 @@ def slide():
 
 def rest():
     """A layer in equilibrium rests; the same in the row and on the report."""
-    log = layer("rest", law="linear elastic")
+    log = layer("rest")
     check(log.parts["Motion"].startswith("at rest at the end, t = 0.02 s: 0 % of the mass") and "Run-out" not in log.parts, log.parts["Motion"])
     check('good"><b>Motion' in report.verdict("rest/results", log), "report")
     check("thickness" not in log.parts["Checks"] and "out of bounds" not in log.parts["Checks"], log.parts["Checks"])
@@ -126,61 +75,43 @@ def rest():
 
 def stress():
     """Passive earth pressure, with p' of 2.5 times the weight of the soil, is within bounds; the same in all directions is not."""
-    passive = layer("passive", law="linear elastic", more="subsection Initial state\n    set K0 = 3.6\n  end")
+    passive = layer("passive", **{"Soil/Initial state/K0": 3.6})
     row = read_table("passive/results/statistics")
     check(max(row["Largest effective stress (Pa)"]) > 2.2 * 1500 * 9.81 * 1.05, "p' is not passive")
     check(re.search(r"largest stress 0\.9\d+ of", passive.parts["Checks"].replace("\n", " ")) and "out of bounds" not in passive.parts["Checks"],
           passive.parts["Checks"])
-    spike = layer("spike", law="linear elastic", start="isotropic", more="subsection Initial state\n    set Pressure = 4e4\n  end")
+    spike = layer("spike", **{"Soil/Initial state/Type": "isotropic", "Soil/Initial state/Pressure": 4e4})
     check(re.match(r"out of bounds:.*largest stress 2\.\d+ of rho g H", spike.parts["Checks"].replace("\n", " ")), spike.parts["Checks"])
 
 
 def volume():
     """A column that collapses with a constant dilation angle expands beyond sand; one without dilation does not."""
-    collapse = "set End time = 1\nsubsection Mesh\n  set Upper corner = 4, 1.2\nend\nsubsection Soil\n  set Region = x < 1 && y < 1\nend\n"
-    tested = layer("dilates", friction=45, dilation=45, entries=collapse)
+    law = "Soil/Mohr-Coulomb/"
+    collapse = {"End time": 1, "Mesh/Upper corner": "4, 1.2", "Soil/Region": "x < 1 && y < 1", "Soil/Material": "Mohr-Coulomb", law + "Young's modulus": 1e7,
+                law + "Friction angle": 45}
+    tested = layer("dilates", **collapse, **{law + "Dilation angle": 45})
     check(re.search(r"largest V/V_0 in contact \S+ \(bound 1.5\)", tested.parts["Checks"].replace("\n", " ")), tested.parts["Checks"])
     check("write a smaller dilation angle" in tested.text, tested.text)
-    steady = layer("does_not", friction=45, entries=collapse)
+    steady = layer("does_not", **collapse)
     check(not re.search(r"in contact \S+ \(bound", steady.parts["Checks"].replace("\n", " ")), steady.parts["Checks"])
 
 
 def shrinkage():
     """A layer far too soft for its weight is compressed most at its base; the check says how far, and names a point there."""
-    soft = "set End time = 0.4\nsubsection Soil\n  subsection Linear elastic\n    set Young's modulus = 1e4\n  end\nend\n"
-    checks = re.sub(r"\s+", " ", layer("soft", law="linear elastic", start="none", entries=soft).parts["Checks"])
+    soft = {"End time": 0.4, "Soil/Linear elastic/Young's modulus": 1e4, "Soil/Initial state/Type": "none"}
+    checks = re.sub(r"\s+", " ", layer("soft", **soft).parts["Checks"])
     found = re.match(r"out of bounds: smallest V/V_0 (0\.[0-5]\d*) \(bound 0\.6\)[^:]* worst: Soil, point \d+ at \(\S+, (\S+)\) m, t = \S+ s: "
                      r"it is compressed to V/V_0 = (\S+)", checks)
     check(found and found[1] == found[3] and float(found[2]) < 0.1, checks)
 
 
 # A block on a block, at 24.5 degrees with a contact friction of 25: it should hold.
-SLIP = BOX.format(dim=2, lower="0, 0", gravity="4.06814071046, -8.9267200673", end=0.6, corner="3, 0.8", cell=0.05, rows=0.1) + """
-set Body force = -4.06814071046*max(0, 1 - t/0.2); 8.9267200673*max(0, 1 - t/0.2)
-set Bodies     = Ground, Block
-subsection Contact Base
-  set Bodies         = Block, Ground
-  set Friction angle = 25
-end
-subsection Ground
-  set Region          = y < 0.315
-  set Material        = linear elastic
-  set Points per cell = 2
-  set Grain density   = 1500
-  subsection Linear elastic
-    set Young's modulus = 1e7
-  end
-end
-subsection Block
-  set Region          = x > 0.4 && x < 1.4 && y > 0.315 && y < 0.615
-  set Material        = linear elastic
-  set Points per cell = 2
-  set Grain density   = 1500
-  subsection Linear elastic
-    set Young's modulus = 1e7
-  end
-end
-"""
+BODY = {"Material": "linear elastic", "Points per cell": 2, "Grain density": 1500, "Linear elastic/Young's modulus": 1e7}
+SLIP = {"End time": 0.6, "Gravity": "4.06814071046, -8.9267200673", "Mesh/Upper corner": "3, 0.8", "Mesh/Cell size": 0.05, "Output/Graphics": "none",
+        "Output/Statistics interval": 0.1, "Body force": "-4.06814071046*max(0, 1 - t/0.2); 8.9267200673*max(0, 1 - t/0.2)", "Bodies": "Ground, Block",
+        "Contact Base/Bodies": "Block, Ground", "Contact Base/Friction angle": 25, "Ground/Region": "y < 0.315",
+        "Block/Region": "x > 0.4 && x < 1.4 && y > 0.315 && y < 0.615",
+        **{f"{body}/{name}": value for body in ("Ground", "Block") for name, value in BODY.items()}}
 
 
 def creep():
@@ -191,4 +122,4 @@ def creep():
     check(0.01 < row["Speed 99 % (m/s)"] < 1 and row["Moving part (-)"] > 0.2, f"{row['Speed 99 % (m/s)']} m/s, {row['Moving part (-)']} of the mass")
 
 
-{"slide": slide, "creep": creep, "rest": rest, "stress": stress, "volume": volume, "shrinkage": shrinkage}[sys.argv[3]]()
+globals()[sys.argv[3]]()

@@ -12,44 +12,14 @@ import sys
 import traceback
 import types
 
+from scree.variants import set_entries
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-CASE = """set End time = 2e-3
-set Output directory = run
-set Bodies = Sand
-subsection Mesh
-  set Cell size = 0.25
-end
-subsection Sand
-  set Region = y < 0.5
-end
-subsection Water
-end
-subsection Output
-  set Interval = 1e-3
-  set Screen = nothing
-end
-"""
-CASE_3D = """set Dimension = 3
-set Gravity = 0, 0, -9.81
-set End time = 2e-3
-set Output directory = run_3d
-subsection Mesh
-  set Lower corner = 0, 0, 0
-  set Upper corner = 1, 1, 1
-  set Cell size = 0.25
-end
-subsection Bed
-  set Type = fixed
-  set Level set expression = z - 0.2 - 0.2*x
-end
-subsection Soil
-  set Region = x < 0.5 && z < 0.6
-end
-subsection Output
-  set Interval = 1e-3
-  set Screen = nothing
-end
-"""
+CASE = {"End time": 2e-3, "Output directory": "run", "Bodies": "Sand", "Mesh/Cell size": 0.25, "Sand/Region": "y < 0.5", "Water/Region": "same",
+        "Output/Interval": 1e-3, "Output/Screen": "nothing"}
+CASE_3D = {"Dimension": 3, "Gravity": "0, 0, -9.81", "End time": 2e-3, "Output directory": "run_3d", "Mesh/Lower corner": "0, 0, 0",
+           "Mesh/Upper corner": "1, 1, 1", "Mesh/Cell size": 0.25, "Bed/Type": "fixed", "Bed/Level set expression": "z - 0.2 - 0.2*x",
+           "Soil/Region": "x < 0.5 && z < 0.6", "Output/Interval": 1e-3, "Output/Screen": "nothing"}
 ELEMENT = "set Path = oedometer\nset Final strain = 0.001\nset Number of steps = 5\nset Output directory = element\n"
 
 
@@ -182,18 +152,8 @@ def check_render(commands):
     commands.refuses("^scree-render: .*water.*vtu is not there", "scree-render", "run", "--collection", "water", "--field", "mass")
 
 
-FLUME = """set Dimension = 3
-set Gravity = 0, 0, -9.81
-subsection Mesh
-  set Lower corner = 0, 0, 0
-  set Upper corner = 2, 1, 1
-  set Cell size = 0.5
-end
-subsection Bed
-  set Type = friction
-  set Level set expression = z - 0.3*(2 - x)
-end
-"""
+FLUME = {"Dimension": 3, "Gravity": "0, 0, -9.81", "Mesh/Lower corner": "0, 0, 0", "Mesh/Upper corner": "2, 1, 1", "Mesh/Cell size": 0.5,
+         "Bed/Type": "friction", "Bed/Level set expression": "z - 0.3*(2 - x)"}
 GRID = "ncols 4\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0.5\nNODATA_value -9999\n"
 
 
@@ -202,7 +162,7 @@ def check_maps(commands):
     commands.refuses("^scree-maps: run has no maps. Set \"Write = true\" in subsection Maps", "scree-maps", "run")
     folder = pathlib.Path("flume/maps")
     folder.mkdir(parents=True)
-    pathlib.Path("flume/parameters.prm").write_text(FLUME, encoding="utf-8")
+    pathlib.Path("flume/parameters.prm").write_text(set_entries("", FLUME), encoding="utf-8")
     (folder / "deposit.asc").write_text(GRID + "0 -1 0 0\n0 1 2\n", encoding="utf-8")
     for name in ("thickness_0s", "thickness_10.50s"):
         (folder / f"{name}.asc").write_text(GRID + "0 1 0 0\n0 1 2 0\n", encoding="utf-8")
@@ -272,8 +232,8 @@ def main():
     build, scree, element = sys.argv[1:]
     for path in pathlib.Path(".").iterdir():
         (shutil.rmtree if path.is_dir() else os.remove)(path)
-    pathlib.Path("case.prm").write_text(CASE, encoding="utf-8")
-    pathlib.Path("case_3d.prm").write_text(CASE_3D, encoding="utf-8")
+    pathlib.Path("case.prm").write_text(set_entries("", CASE), encoding="utf-8")
+    pathlib.Path("case_3d.prm").write_text(set_entries("", CASE_3D), encoding="utf-8")
     pathlib.Path("element.prm").write_text(ELEMENT, encoding="utf-8")
     for case in ("case.prm", "case_3d.prm"):
         subprocess.run([scree, case], check=True)

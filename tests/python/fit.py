@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """fit.py SCREE-ELEMENT: fits of scree-element --fit to outputs of the laws themselves with noise, their flags, and what is told of wrong files."""
 
-import csv
 import pathlib
 import re
 import subprocess
@@ -12,20 +11,12 @@ import numpy as np
 from scree import command, results, variants
 from scree.fit import laboratory, problem, solution
 
+from test_tools import raises, rows_of, run_tests
+
 PROGRAM = sys.argv[1]
-NOR_SAND = {"Nor-Sand/Initial specific volume": 1.65}
 MOHR_COULOMB = {"Material": "Mohr-Coulomb", "Mohr-Coulomb/Friction angle": 40, "Mohr-Coulomb/Residual friction angle": 32, "Mohr-Coulomb/Dilation angle": 10,
                 "Mohr-Coulomb/Residual dilation angle": 0, "Mohr-Coulomb/Softening strain": 0.08, "Mohr-Coulomb/Young's modulus": 2e7}
 UNITS = {"axial_strain": ("%", 100.), "shear_strain": ("%", 100.), "volume_strain": ("-", 1.)}
-
-
-def raises(text, function, *arguments):
-    try:
-        function(*arguments)
-    except ValueError as error:
-        assert re.search(text, str(error)), error
-    else:
-        raise AssertionError(f"{function.__name__}{arguments} throws nothing, and not {text}")
 
 
 def write(name, text):
@@ -36,10 +27,7 @@ def synthetic(name, path, entries, end, columns, noise, n_rows=60, seed=1):
     """Writes the case of a test, a table of what the law gives along it with noise, a part of the largest value, and returns the section of the fit."""
     entries = {"Path": path, "Initial confining pressure": 1e5, "Final strain": end, "Number of steps": max(200, int(np.ceil(end / 2e-4))),
                "Output directory": f"truth/{name}", **entries}
-    text = ""
-    for entry, value in entries.items():
-        text = variants.set_entry(text, entry, str(value))
-    write(f"{name}.prm", text + "\n")
+    write(f"{name}.prm", variants.set_entries("", entries) + "\n")
     subprocess.run([PROGRAM, f"{name}.prm"], check=True, stdout=subprocess.DEVNULL)
     truth, random = results.read_element_table(pathlib.Path("truth", name, "table.txt")), np.random.default_rng(seed)
     x = laboratory.law_values(columns[0], truth, "engineering")
@@ -66,8 +54,8 @@ def fitted(file, n_cores="1"):
     """{entry: (fitted, sigma)} after a call of the command, and what it says."""
     done = subprocess.run([PROGRAM, "--fit", file, "--cores", n_cores], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
-    with open(f"results/{pathlib.Path(file).stem}/parameters.csv", encoding="utf-8") as table:
-        return {row["entry"]: (float(row["fitted"]), float(row["sigma"])) for row in csv.DictReader(table)}, done.stdout
+    table = rows_of(f"results/{pathlib.Path(file).stem}/parameters.csv")
+    return {row["entry"]: (float(row["fitted"]), float(row["sigma"])) for row in table}, done.stdout
 
 
 def check_recovered(name, found, truth, sigmas=2):
@@ -148,8 +136,7 @@ def test_drained_softening():
     subprocess.run([PROGRAM, "results/softening/fitted.prm"], check=True, stdout=subprocess.DEVNULL)
     for file in ("report.txt", "fit.png", "cases/softening.prm", "residuals.csv"):
         assert pathlib.Path("results/softening", file).stat().st_size > 0, file
-    with open("results/softening/residuals.csv", encoding="utf-8") as table:
-        rows = list(csv.DictReader(table))
+    rows = rows_of("results/softening/residuals.csv")
     assert len(rows) == 120 and rows[0].keys() == {"test", "quantity", "unit", "strain", "measured", "law", "difference", "row_weight"}
 
 
@@ -272,6 +259,4 @@ def test_errors():
 
 
 if __name__ == "__main__":
-    for test_name, test in list(globals().items()):
-        if test_name.startswith("test_") and (len(sys.argv) < 3 or test_name in sys.argv[2:]):
-            test()
+    run_tests(globals(), sys.argv[2:])

@@ -7,35 +7,13 @@ import shutil
 import numpy as np
 
 from scree import expressions, maps, terrain
+from scree.variants import set_entries
 
-CASE = """set Dimension = 3
-set Gravity = 0, 0, -9.81
-set Local origin = 1000, 2000
-subsection Mesh
-  set Lower corner = 0, 0, 0
-  set Upper corner = 20, 10, 10
-  set Cell size = 1
-end
-subsection Bed
-  set Type = friction
-  set Level set expression = z - if(x < 10 && y > -1, 5 - x^2/25, 1)
-end
-subsection Output
-  subsection Maps
-    set Write = true
-    set Least thickness = 0.2
-  end
-end
-"""
+from test_tools import raises, run_tests
 
-
-def raises(text, function, *arguments):
-    try:
-        function(*arguments)
-    except ValueError as error:
-        assert text in str(error), error
-    else:
-        raise AssertionError(f"{function.__name__}{arguments} throws nothing")
+CASE = {"Dimension": 3, "Gravity": "0, 0, -9.81", "Local origin": "1000, 2000", "Mesh/Lower corner": "0, 0, 0", "Mesh/Upper corner": "20, 10, 10",
+        "Mesh/Cell size": 1, "Bed/Type": "friction", "Bed/Level set expression": "z - if(x < 10 && y > -1, 5 - x^2/25, 1)",
+        "Output/Maps/Write": "true", "Output/Maps/Least thickness": 0.2}
 
 
 def write(name, values):
@@ -94,7 +72,5 @@ def test_maps():
 
 shutil.rmtree("run", ignore_errors=True)
 pathlib.Path("run/maps").mkdir(parents=True, exist_ok=True)
-pathlib.Path("run/parameters.prm").write_text(CASE, encoding="utf-8")
-test_expressions()
-test_ground()
-test_maps()
+pathlib.Path("run/parameters.prm").write_text(set_entries("", CASE), encoding="utf-8")
+run_tests(globals())

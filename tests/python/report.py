@@ -6,6 +6,8 @@ import pathlib
 
 from scree import report
 
+from test_tools import run_tests
+
 LOG = """Scree 0.9.0 (abc1234), 2 ranks                          2026-11-25 12:53:12 UTC
 Case        my <slope>.prm -> run
 Model       2D plane strain, dry, FLIP, 38480 soil points
@@ -88,6 +90,4 @@ def test_page():
         assert wanted in text, wanted
 
 
-test_log()
-test_ends()
-test_page()
+run_tests(globals())

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """scenarios.py SCREE: sampling and evaluation of scree-scenarios against known answers, its errors, and a study of four runs with the program SCREE."""
 
-import csv
 import os
 import pathlib
 import re
@@ -16,24 +15,10 @@ from scree import results, variants
 from scree.results import Raster
 from scree.scenarios import evaluation, observed, page, sampling, study
 
-CASE = """set End time = 2e-3
-set Output directory = run
-subsection Mesh
-  set Cell size = 0.25
-end
-subsection Soil
-  set Region   = x < 0.5 && y < 0.5
-  set Material = Mohr-Coulomb
-  subsection Mohr-Coulomb
-    set Friction angle = 30
-    set Dilation angle = 0
-  end
-end
-subsection Output
-  set Interval = 1e-3
-  set Screen = nothing
-end
-"""
+from test_tools import raises, rows_of, run_tests
+
+CASE = {"End time": 2e-3, "Output directory": "run", "Mesh/Cell size": 0.25, "Soil/Region": "x < 0.5 && y < 0.5", "Soil/Material": "Mohr-Coulomb",
+        "Soil/Mohr-Coulomb/Friction angle": 30, "Soil/Mohr-Coulomb/Dilation angle": 0, "Output/Interval": 1e-3, "Output/Screen": "nothing"}
 GRID = """# Four heights of a heap.
 case = "case.prm"
 sampling = "grid"
@@ -49,15 +34,6 @@ runs = 4
 [factors]
 "Mesh/Cell size" = [1, 0.5]
 """
-
-
-def raises(text, function, *arguments):
-    try:
-        function(*arguments)
-    except ValueError as error:
-        assert re.search(text, str(error)), error
-    else:
-        raise AssertionError(f"{function.__name__}{arguments} throws nothing")
 
 
 def of(kind, **numbers):
@@ -232,20 +208,18 @@ def call(*arguments):
     return done.stdout
 
 
-def rows_of(folder):
-    with open(pathlib.Path(folder, "runs.csv"), encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
 def test_runs():
     """Four runs, of which one fails; then with its value changed: it alone runs again. Maps and columns have the known heights."""
+    if not shutil.which("snakemake"):
+        print("Without Snakemake: the study of four runs is left out.")
+        return
     pathlib.Path("study.toml").write_text(GRID, encoding="utf-8")
     told = call("--dry-run")
     assert len(re.findall("^000. .*not run$", told, re.MULTILINE)) == 4 and "4 of 4 runs to do" in told, told
     assert not pathlib.Path("results").exists()
     told = call("--cores", "2")
     assert "3 of 4 evaluated, 1 failed" in told and re.search("^Run 0004 +exit code 1: .*the region is empty", told, re.MULTILINE), told
-    rows = rows_of("results/study")
+    rows = rows_of("results/study/runs.csv")
     assert [row["verdict"] for row in rows] == ["finished"] * 3 + ["failed"] and [row["run"] for row in rows] == ["0001", "0002", "0003", "0004"]
     np.testing.assert_allclose([float(row["largest_thickness_m"]) for row in rows[:3]], [0.25, 0.5, 0.75], rtol=0.02)
     table = np.genfromtxt("results/study/maps/probability.csv", delimiter=",", names=True)
@@ -258,7 +232,7 @@ def test_runs():
     assert "3 of 4 evaluated, 1 not run" in call("--evaluate")  # not the run of the former value
     assert "4 runs, 1 to do" in call("--cores", "2")
     assert ends == {number: pathlib.Path(f"results/study/runs/{number}/finished").stat().st_mtime_ns for number in ends}
-    np.testing.assert_allclose(float(rows_of("results/study")[3]["largest_thickness_m"]), 1, rtol=0.02)
+    np.testing.assert_allclose(float(rows_of("results/study/runs.csv")[3]["largest_thickness_m"]), 1, rtol=0.02)
 
 
 def test_factors():
@@ -276,20 +250,8 @@ def main():
     for path in pathlib.Path(".").iterdir():
         (shutil.rmtree if path.is_dir() else os.remove)(path)
     os.environ["SCREE_PROGRAMS"] = str(program.parent)
-    pathlib.Path("case.prm").write_text(CASE, encoding="utf-8")
-    test_distributions()
-    test_designs()
-    test_probability()
-    test_run_out()
-    test_influence()
-    test_observed()
-    test_maps()
-    test_errors()
-    test_factors()
-    if shutil.which("snakemake"):
-        test_runs()
-    else:
-        print("Without Snakemake: the study of four runs is left out.")
+    pathlib.Path("case.prm").write_text(variants.set_entries("", CASE), encoding="utf-8")
+    run_tests(globals())
 
 
 main()

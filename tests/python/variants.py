@@ -6,6 +6,8 @@ import re
 
 from scree.variants import read_case, read_entries, set_entry, write_variant
 
+from test_tools import raises, run_tests
+
 
 CASES = pathlib.Path(__file__).resolve().parents[2] / "prm"
 
@@ -35,12 +37,7 @@ def test_includes():
     assert read_entries("variant.prm") == {"Bed/Profile": "base/parts/bed.csv", "Bed/Type": "free slip"}
     assert "include" not in read_case("variant.prm")
     write("loop.prm", "include loop.prm\n")
-    try:
-        read_case("loop.prm")
-    except ValueError as error:
-        assert "loop" in str(error)
-    else:
-        raise AssertionError("a loop of includes")
+    raises("loop", read_case, "loop.prm")
 
 
 def test_list_of_cases():
@@ -65,7 +62,4 @@ def test_first_run():
     assert [line for line in "".join(blocks).splitlines() if line] == wanted
 
 
-test_entries()
-test_includes()
-test_list_of_cases()
-test_first_run()
+run_tests(globals())

@@ -18,6 +18,8 @@ import subprocess
 import sys
 import time
 
+from scree.variants import set_entries
+
 SCREE, LAUNCHER = sys.argv[1], sys.argv[2].split()
 CASE = (pathlib.Path(__file__).parent / "column.prm").read_text(encoding="utf-8")
 RESULTS = pathlib.Path("results")
@@ -464,62 +466,16 @@ def grid(value):
 FILES_3D = {"raster.asc": (grid(0.2), grid(0.25)), "thickness.asc": (grid(0.5), grid(0.4)),
             "outline.csv": ("0, 0\n1, 0\n1, 1\n0, 1\n", "0, 0\n1, 0\n1, 1.1\n0, 1\n"),
             "record.csv": ("0, 0, 0, 0\n1, 1, 0, 0\n", "0, 0, 0, 0\n1, 2, 0, 0\n")}
-CASE_3D = """set Dimension = 3
-set Gravity = 0, 0, -9.81
-set End time = 2e-4
-set Output directory = results
-subsection Mesh
-  set Lower corner = 0, 0, 0
-  set Upper corner = 2, 2, 2
-  set Cell size = 0.25
-end
-subsection Bed
-  set Type = friction
-  set Raster = FOLDER/raster.asc
-  set Friction angle = 30
-end
-subsection Obstacle Wall
-  set Type = free slip
-  set Level set expression = (x - 1.5)^2 + (y - 1.5)^2 + (z - 1)^2 - 0.3^2
-end
-subsection Base motion
-  set Acceleration record = FOLDER/record.csv
-end
-subsection Soil
-  set Points per cell = 2
-  set Thickness = FOLDER/thickness.asc
-  set Outline = FOLDER/outline.csv
-end
-subsection Output
-  set Graphics = none
-  set Screen = nothing
-  set Checkpoint interval = 1e-4
-end
-"""
+SHORT = {"End time": 2e-4, "Output directory": "results", "Output/Graphics": "none", "Output/Screen": "nothing", "Output/Checkpoint interval": 1e-4}
+CASE_3D = set_entries("", {
+    **SHORT, "Dimension": 3, "Gravity": "0, 0, -9.81", "Mesh/Lower corner": "0, 0, 0", "Mesh/Upper corner": "2, 2, 2", "Mesh/Cell size": 0.25,
+    "Bed/Type": "friction", "Bed/Raster": "FOLDER/raster.asc", "Bed/Friction angle": 30, "Obstacle Wall/Type": "free slip",
+    "Obstacle Wall/Level set expression": "(x - 1.5)^2 + (y - 1.5)^2 + (z - 1)^2 - 0.3^2", "Base motion/Acceleration record": "FOLDER/record.csv",
+    "Soil/Points per cell": 2, "Soil/Thickness": "FOLDER/thickness.asc", "Soil/Outline": "FOLDER/outline.csv"})
 FILES_2D = {"profile.csv": ("0, 0.1\n2, 0.1\n", "0, 0.1\n2, 0.11\n"), "hydrograph.csv": ("0, 0.1\n1, 0.1\n", "0, 0.1\n1, 0.2\n")}
-CASE_2D = """set End time = 2e-4
-set Output directory = results
-subsection Mesh
-  set Upper corner = 2, 1
-end
-subsection Bed
-  set Type = fixed
-  set Profile = FOLDER/profile.csv
-end
-subsection Inflow Torrent
-  set Body = Soil
-  set Region = y > 0.2 && y < 0.5
-  set Hydrograph = FOLDER/hydrograph.csv
-end
-subsection Soil
-  set Region = x < 0.5 && y < 0.5
-end
-subsection Output
-  set Graphics = none
-  set Screen = nothing
-  set Checkpoint interval = 1e-4
-end
-"""
+CASE_2D = set_entries("", {
+    **SHORT, "Mesh/Upper corner": "2, 1", "Bed/Type": "fixed", "Bed/Profile": "FOLDER/profile.csv", "Soil/Region": "x < 0.5 && y < 0.5",
+    "Inflow Torrent/Body": "Soil", "Inflow Torrent/Region": "y > 0.2 && y < 0.5", "Inflow Torrent/Hydrograph": "FOLDER/hydrograph.csv"})
 
 
 def write_files(files, folder="data"):
@@ -554,7 +510,7 @@ def other_folder():
     write_files(FILES_2D, "case/data")
     pathlib.Path("elsewhere/deep").mkdir(parents=True, exist_ok=True)
     text = CASE_2D.replace("FOLDER", "data").replace("= results", f"= {RESULTS.resolve()}")
-    bed = text[text.index("subsection Bed"):text.index("subsection Inflow")]
+    bed = text[text.index("subsection Bed"):text.index("subsection Soil")]
     pathlib.Path("case/data/bed.part").write_text(bed.replace("data/", ""), encoding="utf-8")
     pathlib.Path("case/case.prm").write_text(text.replace(bed, "include data/bed.part\n"), encoding="utf-8")
     run("case/case.prm")

@@ -99,6 +99,13 @@ def set_entry(text, key, value):
     return "\n".join(lines)
 
 
+def set_entries(text, entries):
+    """`text` with other values of several entries, {"Mesh/Cell size": 0.05, "End time": 12}; without text, a case of these entries."""
+    for key, value in entries.items():
+        text = set_entry(text, key, f"{value:.12g}" if isinstance(value, float) else value)
+    return text
+
+
 def file_named(prm, value):
     """The file that an entry of the case `prm` names, whose path counts from the case; None if that is no file."""
     file = pathlib.Path(prm).parent / value
@@ -128,11 +135,8 @@ def write_variant(base_prm, target_prm, entries):
     `entries`: {"Stabilisation/F-bar": "none", "Output directory": "results/none"}; the name of an entry follows those
     of its subsections, separated by "/". An entry that is not in the file is added. Paths among them count from `target_prm`.
     """
-    text = read_case(base_prm, pathlib.Path(target_prm).parent)
-    for key, value in entries.items():
-        text = set_entry(text, key, value)
-    with open(target_prm, "w", encoding="utf-8") as file:
-        file.write(text + "\n")
+    text = set_entries(read_case(base_prm, pathlib.Path(target_prm).parent), entries)
+    pathlib.Path(target_prm).write_text(text + "\n", encoding="utf-8")
 
 
 @functools.lru_cache

@@ -106,10 +106,8 @@ def snippet(problem, solution):
              *(f"# FLAG {flag}." for flag in solution.flags), f"set Material = {law}"]
     different = sorted({entry for case in cases for entry in case if entry.startswith(law + "/")} - set(shared) - set(fitted))
     lines += [f"# Differs between the tests: {entry} = {', '.join(case.get(entry, 'default') for case in cases)}." for entry in different]
-    body = "\n".join(lines) + "\n"
-    for entry, (value, comment) in {**shared, **fitted}.items():
-        body = variants.set_entry(body, entry, value + comment)
-    return body.rstrip("\n") + "\n"
+    entries = {entry: value + comment for entry, (value, comment) in {**shared, **fitted}.items()}
+    return variants.set_entries("\n".join(lines) + "\n", entries).rstrip("\n") + "\n"
 
 
 # Picture --------------------------------------------------------------------------------------------------------------

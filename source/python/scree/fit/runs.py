@@ -22,22 +22,14 @@ class Runs:
         self.program = command.program("scree-element")
         if self.program is None:
             raise ValueError("no program scree-element is there. Build it (cmake --build build --target scree-element), or add its folder to PATH")
-        self.texts = {test.name: self._text(test) for test in problem.tests}
+        # The cases of the tests with the entries that all runs share.
+        self.texts = {test.name: variants.set_entries(variants.read_case(test.case, self.folder), test.entries) for test in problem.tests}
         self.n_runs, self.failures = 0, []
-
-    def _text(self, test):
-        """The case of a test with the entries that all its runs share."""
-        text = variants.read_case(test.case, self.folder)
-        for entry, value in test.entries.items():
-            text = variants.set_entry(text, entry, value)
-        return text
 
     def case(self, test, values, output):
         """The case of a test with trial values."""
-        text = self.texts[test.name]
-        for parameter, value in zip(self.problem.parameters, values):
-            text = variants.set_entry(text, parameter.entry, f"{value:.12g}")
-        return variants.set_entry(text, "Output directory", output) + "\n"
+        tried = {parameter.entry: value for parameter, value in zip(self.problem.parameters, values)}
+        return variants.set_entries(self.texts[test.name], {**tried, "Output directory": output}) + "\n"
 
     def tables(self, trials):
         """For each trial, a list of values, the tables of all tests: {column: values}, or the message of a run that fails."""

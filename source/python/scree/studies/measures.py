@@ -10,7 +10,6 @@ import re
 
 import numpy as np
 
-from scree import closed_forms
 from scree import results
 
 # Part of an error message of scree -> cause, in short.
@@ -224,14 +223,6 @@ def roughness(points, cell_size, field):
         plane = [np.column_stack([np.ones(np.sum(chosen)), points.positions[chosen, :2]]) for chosen in (near, own)]
         squares += np.sum((values[own] - plane[1] @ np.linalg.lstsq(plane[0], values[near], rcond=None)[0]) ** 2)
     return float(np.sqrt(squares / len(values)))
-
-
-def hydrostatic_error(run, surface):
-    """Rms over the water's points of the last picture of p - rho_w g depth below `surface`, m, over rho_w g times the cell size."""
-    water = run.points(None, "water")
-    exact = closed_forms.hydrostatic_pressure(water.positions[:, 1], surface)
-    cell = float(run.entries["Mesh/Cell size"])
-    return float(np.sqrt(np.mean((water.arrays["pressure"] - exact)**2)) / (1000 * closed_forms.GRAVITY * cell))
 
 
 def pressure_scatter(run):

@@ -44,9 +44,7 @@ def module_of(name):
 def case_text(study, variant, folder=None):
     """The variant's parameter file, without an output directory; paths of files count from `folder`, or from the base."""
     text = prm_files.read_case(ROOT / (variant.base or study.base), folder)
-    for name, value in {"Output/Checkpoint interval": 0, **study.entries, **variant.entries}.items():
-        text = prm_files.set_entry(text, name, f"{value:.12g}" if isinstance(value, float) else value)
-    return text + "\n"
+    return prm_files.set_entries(text, {"Output/Checkpoint interval": 0, **study.entries, **variant.entries}) + "\n"
 
 
 def folder_of(study, variant, results):
