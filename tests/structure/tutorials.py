@@ -1,8 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""tutorials.py ROOT FOLDER: what the pages of FOLDER quote exists in ROOT.
+"""tutorials.py ROOT FOLDER: what the pages of FOLDER quote exists in ROOT. Whether its commands run, tests/python/documented_commands.py tells.
 
-- Each command of a block ```sh starts with a program of the build, or with one of OTHERS.
 - Each case it names is in the repository, or an earlier scree-variant of the page has written it.
 - Each run folder it names is the output directory of a case that the page names or writes.
 - Each line `set ...` of a block ```text is in a case that the page names, apart from blanks and comments.
@@ -13,15 +12,7 @@ import re
 import shlex
 import sys
 
-OTHERS = {"mpirun", "cmake", "sh", "gdalinfo", "gdalwarp", "gdal_translate", "gdal_rasterize"}
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-
-
-def programs(root):
-    """The programs that CMake builds, and the commands of the Python package."""
-    built = re.findall(r"^add_executable\(([\w-]+)", (root / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE)
-    scripts = re.findall(r"^([\w-]+) = \"scree\.", (root / "source/python/pyproject.toml").read_text(encoding="utf-8"), re.MULTILINE)
-    return {f"build/{name}" for name in built + scripts}
 
 
 def statements(text):
@@ -50,12 +41,8 @@ class Page:
         for block in self.blocks("sh"):
             yield from filter(None, (line.strip() for line in block.replace("\\\n", " ").splitlines()))
 
-    def faults_of(self, command, known):
+    def faults_of(self, command):
         words = shlex.split(command, comments=True)
-        if words[0] not in known | OTHERS:
-            yield f"there is no program {words[0]}"
-        if words[0] == "mpirun" and not known & set(words):
-            yield f"mpirun has no program of the build: {command}"
         if words[0] == "build/scree-variant":
             self.written.add(words[2])
             self.folders |= output_directories("set " + word for word in words[3:])
@@ -65,12 +52,12 @@ class Page:
             if word.startswith("results/") and re.sub(r"(/safety/(rests|fails))?/?$", "", word) not in self.folders:
                 yield f"no case of the page writes {word}"
 
-    def faults(self, known):
+    def faults(self):
         for name in re.findall(r"\bprm/[\w/.-]+\.\w+\b", self.text):
             if not (self.root / name).exists():
                 yield f"there is no file {name}"
         for command in self.commands():
-            yield from self.faults_of(command, known)
+            yield from self.faults_of(command)
         for block in self.blocks("text"):
             for line in sorted(statements(block) - self.lines):
                 yield f"no case of the page has the line: {line}"
@@ -79,10 +66,10 @@ class Page:
 def main():
     root, folder = map(pathlib.Path, sys.argv[1:])
     pages = [Page(path, root) for path in sorted(folder.glob("*.md"))]
-    known, n_commands, found = programs(root), 0, []
+    n_commands, found = 0, []
     for page in pages:
         n_commands += len(list(page.commands()))
-        found += [f"{page.path.name}: {fault}." for fault in page.faults(known)]
+        found += [f"{page.path.name}: {fault}." for fault in page.faults()]
     print(f"{len(pages)} pages, {n_commands} commands")
     sys.exit("\n".join(found) or not n_commands)
 

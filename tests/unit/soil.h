@@ -33,6 +33,19 @@ void seed_region(SoilBody<dim> &body,
 }
 
 
+/// Moves points out of their lattice, by up to a centimetre.
+template <int dim>
+void shake(PointSet<dim> &points)
+{
+  for_each_point(points, [&](const auto &point) {
+    const Point<dim> x = point.location;
+    for (unsigned int a = 0; a < dim; ++a)
+      point.location[a] += 0.01 * pattern(x + Point<dim>::unit_vector(a));
+  });
+  points.hand_over();
+}
+
+
 /// Linear elastic soil, of grains of 2500 kg/m^3 unless another density is given, in a region of a grid; "none" has no
 /// points.
 template <int dim>

@@ -145,10 +145,10 @@ def final_statistics(run):
         return "<p>There are no statistics.</p>"
     rows = []
     for name, values in results.read_statistics(run).items():
-        unit = re.search(r"\(([^()]*)\)\s*$", name)
+        quantity, unit = results.split_unit(name)
         numbers = values[np.isfinite(values)]
         if len(values):
-            rows.append((re.sub(r"\s*\([^()]*\)\s*$", "", name), unit.group(1) if unit else "-", float(values[0]), float(values[-1]),
+            rows.append((quantity, unit or "-", float(values[0]), float(values[-1]),
                          *((float(numbers.min()), float(numbers.max())) if len(numbers) else ("-", "-"))))
     return table(rows, ("quantity", "unit", "first row", "last row", "smallest", "largest")) if rows else "<p>The statistics have no row.</p>"
 

@@ -153,6 +153,12 @@ def read_box(run):
                float(entries["Mesh/Cell size"].split(",")[0]), vertical)
 
 
+def split_unit(column_name):
+    """("Front 90 %", "m") of the column "Front 90 % (m)"; no unit: ""."""
+    match = re.fullmatch(r"(.*?)\s*\(([^()]*)\)\s*", column_name)
+    return match.groups() if match else (column_name, "")
+
+
 def column(statistics, name):
     """A column of `read_statistics` by its whole name, such as "Front 90 % (m)"; a KeyError lists the names if there is none."""
     if name not in statistics:
@@ -268,16 +274,17 @@ def write_map(path, raster, like):
         data.GetRasterBand(1).SetNoDataValue(-9999.)
         data.GetRasterBand(1).WriteArray(values)
     else:
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(f"ncols {columns}\nnrows {rows}\nxllcorner {raster.x:.12g}\nyllcorner {raster.y:.12g}\ncellsize {raster.width:.12g}\nNODATA_value -9999\n")
-            np.savetxt(file, values, fmt="%.6g")
+        _write_grid(path, values, f"xllcorner {raster.x:.12g}\nyllcorner {raster.y:.12g}", raster.width, "%.6g")
     if like.with_suffix(".prj").exists():
         path.with_suffix(".prj").write_bytes(like.with_suffix(".prj").read_bytes())
 
 
 def write_raster(path, values, spacing):
     """Writes an ESRI ASCII grid; the first row of `values` is the southern one, the middle of its first cell is at 0, 0."""
+    _write_grid(path, values[::-1], "xllcenter 0\nyllcenter 0", spacing, "%.2f")
+
+
+def _write_grid(path, values, corner, width, digits):
     rows, columns = values.shape
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(f"ncols {columns}\nnrows {rows}\nxllcenter 0\nyllcenter 0\ncellsize {spacing:g}\nNODATA_value -9999\n")
-        np.savetxt(file, values[::-1], fmt="%.2f")
+    head = f"ncols {columns}\nnrows {rows}\n{corner}\ncellsize {width:.12g}\nNODATA_value -9999"
+    np.savetxt(path, values, digits, header=head, comments="")

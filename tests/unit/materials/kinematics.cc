@@ -83,32 +83,6 @@ void test_potential(const std::string &name, const Law &law, const PrincipalValu
 }
 
 
-/// A point of a material and its path.
-template <int dim>
-struct PointOfMaterial
-{
-  std::unique_ptr<Material<dim>> material;
-  double left_cauchy_green[6], stress[6], internal[4] = {}, J = 1;
-  UpdateReport report;
-
-  PointOfMaterial(const std::string &law, const double vertical, const double lateral)
-  {
-    MaterialParameters parameters;
-    parameters.law        = law;
-    material              = make_material<dim>(parameters);
-    const double start[6] = { lateral, vertical, lateral, 0, 0, 0 };
-    material->initialise(start, left_cauchy_green, stress, internal);
-  }
-
-  void update(const Tensor<2, dim> &increment, const double stretch = 1)
-  {
-    const double one = 1;
-    J *= stretch * determinant(increment);
-    material->update({ 1, 0, left_cauchy_green, stress, internal }, { &increment[0][0], &stretch, &J, &one }, report);
-  }
-};
-
-
 void test_plane_strain(const std::string &law, const bool has_substeps, RandomNumbers &random)
 {
   PointOfMaterial<2> plane(law, -1e4, -8e3);

@@ -273,11 +273,8 @@ void test_falling_strength(const unsigned int n, RandomNumbers &random)
     internal[2] = numbers.uniform(0, 0.5);
     internal[3] = numbers.uniform(1e4, 3e4);
   };
-  TrescaParameters clay;
-  clay.strength          = "20e3";
-  clay.sensitivity       = 5;
-  clay.remoulding_strain = 0.15;
-  clay.rate_increase     = 0.1;
+  TrescaParameters clay = sensitive_clay();
+  clay.rate_increase    = 0.1;
   test<dim>(Tresca(clay), { "clay", 1e-5, 0.02, 1e2, 1e4, 0.5, 1, 0.1, has_strength, false }, n, 1e-8, random);
   clay.tension_cut_off = 2e3;
   test<dim>(

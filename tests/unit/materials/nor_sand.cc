@@ -72,32 +72,25 @@ void test_returns(const std::string &name,
 
 void test_gap()
 {
-  MaterialParameters parameters;
-  const auto material = make_material<2>(parameters);
-
-  constexpr double pressure = 1e4, step = 5e-5, one = 1;
-  const double start[4] = { -pressure, -pressure, -pressure, 0 };
-  double left_cauchy_green[4], stress[4], internal[2];
-  material->initialise(start, left_cauchy_green, stress, internal);
-
-  UpdateReport report;
-  double volume_strain = 0; // ln J
-  const auto stretch   = [&](const double strain) {
-    const double out_of_plane = std::exp(strain), increment[4] = { out_of_plane, 0, 0, out_of_plane };
+  constexpr double pressure = 1e4, step = 5e-5;
+  PointOfMaterial<2> sand("Nor-Sand", -pressure, -pressure);
+  const UpdateReport &report = sand.report;
+  const double *stress       = sand.stress;
+  double volume_strain       = 0; // ln J
+  const auto stretch         = [&](const double strain) {
     volume_strain += 3 * strain;
-    const double J = std::exp(volume_strain);
-    material->update({ 1, 0, left_cauchy_green, stress, internal }, { increment, &out_of_plane, &J, &one }, report);
+    sand.update(std::exp(strain) * Tensor<2, 2>(unit_symmetric_tensor<2>()), std::exp(strain));
   };
 
   // From 10 kPa to the minimum pressure the sand swells by kappa ln(10 kPa/1 Pa).
-  const NorSandParameters &law = parameters.of<NorSandParameters>();
-  const double contact         = law.swelling_index * std::log(pressure / law.minimum_pressure);
+  const NorSandParameters law;
+  const double contact = law.swelling_index * std::log(pressure / law.minimum_pressure);
   for (unsigned int i = 0; i < 400; ++i)
     {
       stretch(step);
       require((stress[0] < 0) == (volume_strain < contact), "Wrong contact on the way out.");
     }
-  require(report.n_separated > 0 && material->elastic_energy(left_cauchy_green) < 1e-2,
+  require(report.n_separated > 0 && sand.material->elastic_energy(sand.left_cauchy_green) < 1e-2,
           "The sand should be apart and store nothing.");
   // A wide step is taken in many sub-steps, yet the point is apart once.
   const UpdateReport before = report;

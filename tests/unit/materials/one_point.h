@@ -6,6 +6,8 @@
 
 #include <scree/materials/hencky_material.h>
 #include <scree/materials/laws/mohr_coulomb.h>
+#include <scree/materials/laws/tresca.h>
+#include <scree/materials/table.h>
 
 #include <functional>
 
@@ -23,6 +25,43 @@ inline MohrCoulombParameters softening_clay()
   parameters.softening.friction_angle = 0;
   return parameters;
 }
+
+
+/// Clay that softens with strain, of 20 kPa.
+inline TrescaParameters sensitive_clay()
+{
+  TrescaParameters parameters;
+  parameters.strength          = "20e3";
+  parameters.sensitivity       = 5;
+  parameters.remoulding_strain = 0.15;
+  return parameters;
+}
+
+
+/// A point of a material and its path.
+template <int dim>
+struct PointOfMaterial
+{
+  std::unique_ptr<Material<dim>> material;
+  double left_cauchy_green[6], stress[6], internal[4] = {}, J = 1;
+  UpdateReport report;
+
+  PointOfMaterial(const std::string &law, const double vertical, const double lateral)
+  {
+    MaterialParameters parameters;
+    parameters.law        = law;
+    material              = make_material<dim>(parameters);
+    const double start[6] = { lateral, vertical, lateral, 0, 0, 0 };
+    material->initialise(start, left_cauchy_green, stress, internal);
+  }
+
+  void update(const dealii::Tensor<2, dim> &increment, const double stretch = 1)
+  {
+    const double one = 1;
+    J *= stretch * determinant(increment);
+    material->update({ 1, 0, left_cauchy_green, stress, internal }, { &increment[0][0], &stretch, &J, &one }, report);
+  }
+};
 
 
 /// The return of a law for one point, in principal values; says whether it changed anything, and counts in `report`.

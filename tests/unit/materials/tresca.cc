@@ -15,19 +15,9 @@ namespace test_tresca
 constexpr unsigned int of_place = 3; // internal variable
 constexpr double slow           = std::numeric_limits<double>::infinity();
 
-TrescaParameters clay()
-{
-  TrescaParameters parameters;
-  parameters.strength          = "20e3";
-  parameters.sensitivity       = 5;
-  parameters.remoulding_strain = 0.15;
-  return parameters;
-}
-
-
 TrescaParameters fast_clay()
 {
-  TrescaParameters parameters = clay();
+  TrescaParameters parameters = sensitive_clay();
   parameters.rate_increase    = 0.1;
   return parameters;
 }
@@ -121,7 +111,7 @@ shear(const TrescaParameters &parameters, const double gamma, const unsigned int
 /// Largest error over s_u against tau = s_u(gamma - tau/G) of slow clay.
 double error_of_softening(const unsigned int n)
 {
-  const TrescaParameters parameters = clay();
+  const TrescaParameters parameters = sensitive_clay();
   const double gamma = 0.5, G = Tresca(parameters).shear_modulus(), peak = 2e4, St = parameters.sensitivity;
   const std::vector<double> found = shear(parameters, gamma, n, 0);
   double largest = 0, exact = 0;
@@ -165,7 +155,7 @@ void test_rates()
 
 void test_place()
 {
-  TrescaParameters parameters  = clay();
+  TrescaParameters parameters  = sensitive_clay();
   parameters.strength          = "1e3 + 2e3*(5 - y)";
   parameters.strength_gradient = 100;
   double internal[4]           = {};
@@ -194,7 +184,7 @@ void run()
   RandomNumbers random;
   TrescaParameters with_cut_off = fast_clay();
   with_cut_off.tension_cut_off  = 2e3;
-  test_random("slow clay", clay(), random);
+  test_random("slow clay", sensitive_clay(), random);
   test_random("clay", fast_clay(), random);
   test_random("clay with cut-off", with_cut_off, random);
   test_random("mud, n = 0.5", mud(2e3, 0.5), random);

@@ -9,32 +9,6 @@
 
 namespace test_grid_basis
 {
-/// Sum of `coefficient(node)` times the shape functions at a place of a cell, and its gradient.
-template <int dim, int n, typename Coefficient>
-std::pair<double, Tensor<1, dim>>
-evaluate(const BackgroundGrid<dim> &grid, const unsigned int cell, const Point<dim> &x, const Coefficient &coefficient)
-{
-  const CellBasis<dim, n> basis(x, grid.open_knots(cell));
-  std::pair<double, Tensor<1, dim>> result(0., Tensor<1, dim>());
-  for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; ++i)
-    {
-      const double c = coefficient(grid.nodes(cell)[i]);
-      double product = c;
-      Tensor<1, dim> slopes;
-      for (unsigned int a = 0; a < dim; ++a)
-        slopes[a] = c / grid.cell_size();
-      for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
-        {
-          product *= basis.value[a][rest % n];
-          for (unsigned int b = 0; b < dim; ++b)
-            slopes[b] *= a == b ? basis.derivative[a][rest % n] : basis.value[a][rest % n];
-        }
-      result.first += product;
-      result.second += slopes;
-    }
-  return result;
-}
-
 /// Largest error of constants and of linear fields at random places of all cells.
 template <int dim, int n>
 double linear_error(const BackgroundGrid<dim> &grid)

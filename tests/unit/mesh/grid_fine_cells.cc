@@ -48,15 +48,9 @@ double linear_error(const BackgroundGrid<dim> &grid)
   for (const auto &cell : grid.fine_cells().cells())
     if (grid.fine_cells().is_owned(cell))
       {
-        const CellBasis<dim, 3> basis(middle, grid.open_knots(cell.index));
-        double sum = 0;
-        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
-          {
-            double product = 1;
-            for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= 3)
-              product *= basis.value[a][rest % 3];
-            sum += product * value(grid.node_position(grid.nodes(cell.index)[i]));
-          }
+        const double sum   = evaluate<dim, 3>(grid, cell.index, middle, [&](const unsigned int node) {
+                             return value(grid.node_position(node));
+                           }).first;
         const Point<dim> x = grid.fine_cells().box().corner(cell.place) + width * (middle - Point<dim>());
         error              = std::max(error, std::abs(sum - value(x)));
       }

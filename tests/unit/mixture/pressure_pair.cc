@@ -43,14 +43,7 @@ public:
     seed_water(
         water, parameters, { { "Soil", "x < 0.33", 0.4, soil.density } }, { grid.triangulation(), grid.cell_size() });
     for (PointSet<dim> *points : { &soil.points, &water.points() })
-      {
-        for_each_point(*points, [&](const auto &point) {
-          const Point<dim> x = point.location;
-          for (unsigned int a = 0; a < dim; ++a)
-            point.location[a] += 0.01 * pattern(x + Point<dim>::unit_vector(a));
-        });
-        points->hand_over();
-      }
+      shake(*points);
     soil.drag.emplace(parameters, 0.4);
     TransferParameters flip;
     flip.method = "FLIP"; // The points have no room for a gradient.

@@ -45,30 +45,15 @@ Reference<dim> moved(const CellPoints<dim> &cell,
   const Point<dim> x = cell.reference_location_of(p);
   Reference<dim> point{ std::vector<double>(old, old + layout.n_properties), cell.location_of(p), {}, 1., 1. };
 
-  const OpenKnots open = grid.open_knots(cell.cell);
-  const CellBasis<dim, n> basis(x, open);
+  const auto of_nodes = [&](const unsigned int component) {
+    return evaluate<dim, n>(grid, cell.cell, x, [&](const unsigned int node) { return field[node][component]; });
+  };
   Tensor<1, dim> velocity, change;
   Tensor<2, dim> gradient;
-  for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; ++i)
+  for (unsigned int c = 0; c < dim; ++c)
     {
-      const double *node    = field[grid.nodes(cell.cell)[i]];
-      unsigned int place[3] = { i % n, i / n % n, i / n / n };
-      double value          = 1.;
-      Tensor<1, dim> slope;
-      for (unsigned int a = 0; a < dim; ++a)
-        {
-          value *= basis.value[a][place[a]];
-          slope[a] = 1. / grid.cell_size();
-          for (unsigned int b = 0; b < dim; ++b)
-            slope[a] *= a == b ? basis.derivative[b][place[b]] : basis.value[b][place[b]];
-        }
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          const double v = node[NodalField<dim>::velocity + c];
-          velocity[c] += value * v;
-          change[c] += value * node[NodalField<dim>::velocity_change + c];
-          gradient[c] += v * slope;
-        }
+      std::tie(velocity[c], gradient[c]) = of_nodes(NodalField<dim>::velocity + c);
+      change[c]                          = of_nodes(NodalField<dim>::velocity_change + c).first;
     }
   const Tensor<2, dim> one = unit_symmetric_tensor<dim>();
   point.increment          = one + time_step * gradient;

@@ -19,17 +19,6 @@ namespace
 {
   constexpr double time_step = 1.; // s: displacements of the size of velocities
 
-  template <int dim>
-  void shake(PointSet<dim> &points)
-  {
-    for_each_point(points, [&](const auto &point) {
-      const Point<dim> x = point.location;
-      for (unsigned int a = 0; a < dim; ++a)
-        point.location[a] += 0.01 * pattern(x + Point<dim>::unit_vector(a));
-    });
-    points.hand_over();
-  }
-
   /// Water up to y = .44 m in a box of 6 cells an axis, with soil of porosity .4 where an expression says.
   template <int dim>
   class Scene

@@ -102,8 +102,7 @@ def render_statistics(run, output, titles=None):
 
     figure, axes = plt.subplots(len(groups), 1, figsize=(8.5, 0.6 + 2.6 * len(groups)), squeeze=False, sharex=True, layout="constrained")
     for panel, (title, columns) in zip(axes.flat, groups.items()):
-        unit = re.search(r"\(([^()]*)\)\s*$", next(iter(columns))).group(1)
-        columns, unit = _scaled(columns, unit)
+        columns, unit = _scaled(columns, results.split_unit(next(iter(columns)))[1])
         if title not in ("front", "step size"):
             panel.axhline(0, color="0.6", lw=0.6)
         for name, values in columns.items():
@@ -120,20 +119,15 @@ def render_statistics(run, output, titles=None):
 
 def _short(name):
     """A column's name without its unit, and without what its panel says."""
-    return _without_unit(name).replace(" energy", "").replace("Obstacle ", "")
+    return results.split_unit(name)[0].replace(" energy", "").replace("Obstacle ", "")
 
 
 def _by_unit(columns):
     """{unit: columns} of names such as "Front (m)"."""
     groups = {}
     for name in columns:
-        unit = re.search(r"\(([^()]*)\)\s*$", name)
-        groups.setdefault(unit.group(1) if unit else "", []).append(name)
+        groups.setdefault(results.split_unit(name)[1], []).append(name)
     return groups
-
-
-def _without_unit(name):
-    return re.sub(r"\s*\([^()]*\)\s*$", "", name)
 
 
 def render_probe(run, name, output):
@@ -159,7 +153,7 @@ def render_probe(run, name, output):
             panel.set_xlabel("distance (m)")
         else:
             for key in names:
-                panel.plot(table["Time (s)"], table[key], label=_without_unit(key))
+                panel.plot(table["Time (s)"], table[key], label=results.split_unit(key)[0])
             panel.legend(fontsize="small", loc="best")
         panel.set_ylabel(title if is_line else f"({title})")
         panel.grid(alpha=0.3)

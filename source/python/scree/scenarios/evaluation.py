@@ -3,7 +3,6 @@
 
 import math
 import pathlib
-import re
 from typing import NamedTuple
 
 import numpy as np
@@ -37,8 +36,8 @@ def numbers_of(study, run):
         found.update(_run_out(run, study.run_out_thickness))
     else:
         name = "Front 99 % (m)" if study.run_out == "distance" else study.run_out
-        unit = re.search(r"\(([^()]*)\)$", name)
-        found[Result("run_out", re.sub(r" \([^()]*\)$", "", name), unit.group(1) if unit else "-")] = results.column(table, name)[-1]
+        quantity, unit = results.split_unit(name)
+        found[Result("run_out", quantity, unit or "-")] = results.column(table, name)[-1]
     peaks = peak_maps(run)
     for quantity, one in peaks.items():
         kind = maps.KINDS[MAPS[quantity]]

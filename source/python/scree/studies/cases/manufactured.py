@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from scree.studies.cases.bar import relative
+from scree.studies.cases.bar import errors, relative
 from scree.studies.charts import WorkPrecision
 from scree.studies.precision import DEFAULTS, at_finest, curve, order, ratio, table
 from scree.studies.study import Claim, Study, axis, product
@@ -62,9 +62,7 @@ def measure(run):
 
     velocity = relative(computed, exact(x - computed * step / 2, TIME - step / 2))
     stress = relative(points.arrays["stress"][:, 0], MODULUS * np.log(stretch(x, TIME)) / (stretch(x, TIME) * stretch(y, TIME)))
-    error = math.sqrt((velocity**2 + stress**2) / 2)
-    return {"cells": round(1 / run.labels["h"]), "error": error if error < 1 else math.nan, "error of velocity": velocity,
-            "error of stress": stress, "error of velocity, taken as on time": relative(computed, exact(x, TIME))}
+    return errors(run, velocity, stress, relative(computed, exact(x, TIME)))
 
 
 def verdict(rows):
