@@ -411,6 +411,34 @@ def full_disk():
     check_csv()
 
 
+def run_on_small_disk(case, n_bytes, *options):
+    """The error of a run for which no file can grow beyond so many bytes."""
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (n_bytes, resource.RLIM_INFINITY))
+    without_files = {**os.environ, "PMIX_MCA_gds": "hash", "OMPI_MCA_btl": "self"}  # of Open MPI's own
+    return run(case, *options, wanted=1, preexec_fn=limit, restore_signals=False, env=without_files)
+
+
+def small_disk():
+    """A checkpoint or a picture that finds no room stops the run with an error; older checkpoints stay whole, and the run goes on from them."""
+    write_case("case.prm", ["Checkpoint interval = 0.03"])
+    wanted = whole_run("case.prm")
+    write_case("begin.prm", ["Checkpoint interval = 0.03", "End time = 0.08"])
+    run("begin.prm")
+    before = sorted((RESULTS / "checkpoint").iterdir())
+    errors = run_on_small_disk("case.prm", 50000, "--resume")  # its points need 61416
+    check(re.search(r"^scree: case.prm: results/checkpoint/unfinished/points.0: cannot be written: .*bytes are needed.*"
+                    r"Still whole: results/checkpoint/step-\d+ and results/checkpoint/step-\d+\.$", errors, re.MULTILINE), errors)
+    check(len(before) == 2 and sorted((RESULTS / "checkpoint").iterdir()) == before, "checkpoints have changed")
+    run("case.prm", "--resume")
+    check(content() == wanted, "rows are missing")
+    fresh()
+    write_case("pictures.prm")
+    errors = run_on_small_disk("pictures.prm", 30000)  # more than parameters.prm needs
+    check(re.search(r"^scree: pictures.prm: results/solution/points_00001.0.vtu: cannot be written: ", errors, re.MULTILINE), errors)
+
+
 def lost_rows():
     """A resumed run tells if statistics has lost rows that were there at the checkpoint, and lists only pictures it has."""
     entries = ["Checkpoint interval = 0.04", "Interval = 0.02"]
