@@ -11,6 +11,9 @@ import csv
 import re
 
 from scree.command import ROOT
+from scree.studies import charts
+from scree.studies import run as studies
+from scree.studies.cases import strength_reduction
 
 FOLDER = ROOT / "doc" / "verification"
 COLUMNS = ("quantity", "reference", "computed", "deviation (%)", "run")
@@ -61,8 +64,6 @@ EXPERIMENTS = ("aluminium-bars", "granular-columns-against-experiments", "dam-br
 
 def deviations(rows):
     """{question: [(deviation in percent, whether the reference is measured)]}, with the factors of safety of the study of strength reduction."""
-    from scree.studies import run as studies
-    from scree.studies.cases import strength_reduction
     found = {question: [(float(row["deviation_percent"]), anchor in EXPERIMENTS) for row in rows for anchor in [row["page"].partition("#")[2]]
                         if anchor in anchors and not row["quantity"].startswith("plug")] for question, anchors in QUESTIONS.items()}
     slopes = strength_reduction.scenes_of(studies.read_table(studies.PAGES / "strength_reduction.csv"))
@@ -72,7 +73,6 @@ def deviations(rows):
 
 def draw(found, target):
     """One line a question, the deviations as points, 5 % shaded."""
-    from scree.studies import charts
     figure, axes = charts.plt.subplots(figsize=(charts.WIDTH, 3.2))
     axes.axvspan(-5, 5, color="#5aa55a", alpha=0.15, linewidth=0)
     axes.axvline(0, color="0.5", linewidth=1)
@@ -98,7 +98,6 @@ def draw_ratios(beginnings, target):
     """Computed over reference values of the benchmarks whose quantities begin so, one line each, 5 % shaded."""
     rows = [row for row in read() if row["quantity"].startswith(beginnings) and float(row["reference"]) > 0]
     ratios = [float(row["computed"]) / float(row["reference"]) for row in rows]
-    from scree.studies import charts
     figure, axes = charts.plt.subplots(figsize=(charts.WIDTH, 0.8 + 0.28 * len(rows)))
     axes.axvspan(0.95, 1.05, color="#5aa55a", alpha=0.15, linewidth=0)
     axes.axvline(1, color="0.5", linewidth=1)
@@ -110,8 +109,6 @@ def draw_ratios(beginnings, target):
 
 def draw_slopes_under_water(target):
     """Displacement of the front of slopes under still water within 1 s over their angle, for three conductivities and water levels."""
-    from scree.studies import charts
-    from scree.studies import run as studies
     rows = studies.read_table(studies.PAGES / "submerged_slope.csv")
     figure, axes = charts.plt.subplots(figsize=(charts.WIDTH, 3.2))
     axes.axvline(FRICTION, color="0.5", linewidth=1)
