@@ -9,7 +9,7 @@ import sys
 
 from scree import terrain_bank
 
-from scene_tools import check, largest_fall, main, run
+from scene_tools import check, check_fall, main, run
 
 METHODS = ("TPIC", "AFLIP")
 
@@ -69,10 +69,8 @@ def water_bank(scree):
         kind, case, entries, is_elastic = scene_of(seed)
         for method in sys.argv[5:6] or METHODS:
             table = run(scree, case, "bank", {**entries, "Transfer/Method": method})
-            potential = table["Potential energy (J)"]
-            released = potential[0] - min(potential) + table["Kinetic energy (J)"][0]
-            check("%d, %s, %s%s: largest gain over released energy" % (seed, method, kind, ", elastic" if is_elastic else ""),
-                  largest_fall(table["Numerical dissipation (J)"]) / released, 0, *((0.005,) if is_elastic else (1.5e-4, 1e-4) if method == "TPIC" else (1e-4,)))
+            check_fall("%d, %s, %s%s" % (seed, method, kind, ", elastic" if is_elastic else ""), table,
+                       *((0.005,) if is_elastic else (1.5e-4, 1e-4) if method == "TPIC" else (1e-4,)))
 
 
 def terrain_bank_short(scree):

@@ -10,7 +10,7 @@ import numpy as np
 
 from scree.results import read_raster, read_table
 
-from scene_tools import ROOT, check, largest_fall, main, run
+from scene_tools import ROOT, check, check_gain, main, run
 
 
 def check_books(name, table, scale):
@@ -59,9 +59,7 @@ def inflow_channel(scree):
             level = read_table("channel_%s/probe_%s" % (name, place))["Water level (m)"][-1]
             check("channel, %s: depth at %s over that at the inflow" % (name, place), level / 0.4, 1 - bound, 1 + bound)
         check_books("channel, " + name, table, table["Momentum entered x (N s)"][-1])
-        missing = np.array(table["Numerical dissipation (J)"])
-        gain = largest_fall(missing)
-        check("channel, %s: largest gain of energy over that entered" % name, gain / table["Energy entered (J)"][-1], 0, 1e-3)
+        check_gain("channel, " + name, table, over=table["Energy entered (J)"][-1])
 
 
 def inflow_saturated(scree):
@@ -75,8 +73,7 @@ def inflow_saturated(scree):
     check("saturated layer: water outside soil over that entered", max(table["Water outside soil (kg)"]) / table["Water entered (kg)"][-1], 0, 0.01)
     check("saturated layer: volume error", max(table["Volume error (-)"]), 0, 0.05)
     check_books("saturated layer", table, table["Momentum entered x (N s)"][-1])
-    missing = np.array(table["Numerical dissipation (J)"])
-    check("saturated layer: largest gain of energy over that entered", largest_fall(missing) / table["Energy entered (J)"][-1], 0, 1e-3)
+    check_gain("saturated layer", table, over=table["Energy entered (J)"][-1])
 
 
 def inflow_debris(scree):
@@ -93,11 +90,9 @@ def inflow_debris(scree):
     check("debris: discharge less mass, over that of a layer", max(missing) / layer, 0, 1 + 1e-6)
     check("debris: mass less discharge, over that of a layer", max(-missing) / layer, -1, 1e-6)
     check_books("debris", table, np.linalg.norm([table["Momentum entered %s (N s)" % axis][-1] for axis in "xyz"]))
-    missing = np.array(table["Numerical dissipation (J)"])
-    released = table["Bed dissipation (J)"][-1] + table["Plastic dissipation (J)"][-1]
     # Near the inflow; doc/tutorials/debris_flow.md.
     check("debris: largest thickness, m", np.nanmax(read_raster("debris/maps/largest_thickness.asc").values), 0.9 * 0.41, 1.1 * 0.41)
-    check("debris: largest gain of energy over what friction took", largest_fall(missing) / released, 0, 1e-3)
+    check_gain("debris", table, over=table["Bed dissipation (J)"][-1] + table["Plastic dissipation (J)"][-1])
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import sys
 import numpy as np
 
 from scree.closed_forms import GRAVITY
-from scree.results import read_statistics
+from scree.results import read_points, read_statistics
 from scree.variants import write_variant
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -97,6 +97,13 @@ def fraction_within(coordinate, mass, part):
     return coordinate[order][np.searchsorted(np.cumsum(mass[order]), part * mass.sum())]
 
 
+def ways(run_folder):
+    """How far each soil point has come between the first and the last picture, m."""
+    first, last = (read_points(run_folder, time) for time in (0., None))
+    order = [np.argsort(points.arrays["id"]) for points in (first, last)]
+    return np.linalg.norm(last.positions[order[1]] - first.positions[order[0]], axis=1)
+
+
 def rms(values):
     return math.sqrt(np.mean(np.square(values)))
 
@@ -114,7 +121,7 @@ def check(what, value, lowest, highest, asked=None):
 
 
 def check_gain(name, table, most=1e-3, over=None, asked=None):
-    """No energy from nothing: the largest gain over the change of the potential energy, or over `over`, J."""
+    """No energy from nothing: the largest gain over the change of the potential energy, or over `over`, J, that which was released or entered."""
     scale = np.ptp(table["Potential energy (J)"]) if over is None else over
     check(name + ": largest gain of energy over released energy", largest_fall(table["Numerical dissipation (J)"]) / scale, 0, most, asked)
 

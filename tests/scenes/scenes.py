@@ -11,9 +11,9 @@ import os
 import numpy as np
 
 from scree.results import read_table
-from scree.variants import read_case
+from scree.variants import read_case, set_entries
 
-from scene_tools import ROOT, at, check, check_balances, check_fall, main, mean_oscillation, run
+from scene_tools import ROOT, at, check, check_balances, check_fall, check_gain, largest_fall, main, mean_oscillation, run
 
 
 def columns(scree):
@@ -93,6 +93,29 @@ def drop(scree):
     run(scree, "columns/mohr_coulomb_collapse", "rest", {**slide, "Soil/Initial velocity": "0; 0", "Probes/Wall forces": "true"})
     force = np.mean(read_table("rest/probe_walls")["Bottom soil y (N)"][1:])
     check("rest: force on the floor over weight", force / (mass * gravity), -1.01, -0.99)
+
+
+def thrown_block(scree):
+    """An elastic block flies through an open wall: what has left is counted. It rebounds from a fixed one, which takes what it stops at the nodes,
+    and not what the block's stress brings there for a while."""
+    speed, mass, n_points = 2.5, 2000 * 0.4 * 0.2, 128
+    with open("block.prm", "w", encoding="utf-8") as file:
+        file.write(set_entries("", {
+            "End time": 0.2, "Gravity": "0, 0", "Mesh/Upper corner": "2, 0.5", "Transfer/Method": "FLIP", "Transfer/PIC rate": 0, "Stabilisation/F-bar": "none",
+            "Boundaries/Bottom": "free slip", "Soil/Region": "x > 0.3 && x < 0.7 && y < 0.2", "Soil/Material": "linear elastic", "Soil/Points per cell": 4,
+            "Soil/Grain density": 2000, "Soil/Initial velocity": f"{-speed}; 0", "Soil/Linear elastic/Young's modulus": 1e6,
+            "Soil/Linear elastic/Poisson's ratio": 0}) + "\n")
+    for wall, lost in (("open", n_points / 2), ("fixed", 0)):
+        table = run(scree, os.path.abspath("block"), wall, {"Boundaries/Left": wall, "Output/Statistics interval": "0.001"})
+        check(wall + " wall: points lost", table["Points lost"][-1], lost, lost)
+        check(wall + " wall: points left and lost", table["Points"][-1] + table["Points lost"][-1], n_points, n_points)
+        check(wall + " wall: mass left and lost over that of the start, less 1", (table["Mass (kg)"][-1] + table["Mass lost (kg)"][-1]) / mass - 1, -1e-11, 1e-11)
+        check(wall + " wall: momentum residual over that of the start", max(table["Momentum residual (N s)"]) / (mass * speed), 0, 1e-12)
+    check("fixed wall: restitution", table["Momentum x (N s)"][-1] / (mass * speed), 0.855095, 0.855097)
+    brought = mass * speed**2 / 2
+    check("fixed wall: energy taken over that brought", table["Wall dissipation (J)"][-1] / brought, 0, 0.1)
+    check("fixed wall: energy given back over it", largest_fall(table["Wall dissipation (J)"]) / brought, 0, 1e-12)
+    check_gain("fixed wall", table, 2e-3, brought)
 
 
 def obstacle(scree):

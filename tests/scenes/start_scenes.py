@@ -9,13 +9,9 @@ import re
 
 import numpy as np
 
-from scree import closed_forms
 from scree.results import read_points
 
-from scene_tools import check, main, run
-
-GRAVITY = closed_forms.GRAVITY
-WATER = 1000 * GRAVITY  # N/m^3
+from scene_tools import WATER, check, main, run
 
 # A level layer, 8 m deep, in a box 2 m wide.
 LAYER = {"Mesh/Upper corner": "2, 10", "Mesh/Cell size": "0.25", "Soil/Region": "y < 8", "Soil/Dry unit weight": "16e3",

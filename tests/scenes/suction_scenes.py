@@ -13,9 +13,8 @@ import numpy as np
 from scree import closed_forms
 from scree.results import read_points
 
-from scene_tools import check, main, run
+from scene_tools import WATER, check, main, run, ways
 
-WATER = 1000 * closed_forms.GRAVITY  # N/m^3
 YY = 4  # of a stress of 3 x 3 components
 
 
@@ -67,10 +66,7 @@ def wet_cut(scree):
     """A vertical cut in sand without cohesion stands by suction but for 6.5 % of it (1 % was asked), and falls when it is flooded."""
     for name, entries, least, most in (("moist", {}, 0, 0.07), ("flooded", {"Water/Phreatic surface": "1.5", "Water/Reservoir level": "1.5"}, 0.05, 1)):
         run(scree, "slopes/wet_cut", name, {"Output/Graphics": "points", "Output/Interval": 1.5, **entries})
-        first, last = (read_points(name, time) for time in (0., None))
-        order = [np.argsort(points.arrays["id"]) for points in (first, last)]
-        way = np.linalg.norm(last.positions[order[1]] - first.positions[order[0]], axis=1)
-        check("%s: part of the soil that has moved more than 0.1 m" % name, np.mean(way > 0.1), least, most, 0.01 if name == "moist" else None)
+        check("%s: part of the soil that has moved more than 0.1 m" % name, np.mean(ways(name) > 0.1), least, most, 0.01 if name == "moist" else None)
 
 
 def check_rain(name, table, fallen):

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Walls: what each does to the velocity of a node, of soil and of water; walls oblique to the axes and Coulomb's law; a
-// gate; a block that slides on friction; points that leave.
+// gate.
 #include "../test.h"
 
-#include <scree/materials/laws/linear_elastic.h>
 #include <scree/boundary/constraints.h>
-#include <scree/run/simulation.h>
-
-#include <fstream>
-#include <map>
-#include <sstream>
 
 namespace test_grid_walls
 {
@@ -155,131 +149,12 @@ void test_constraints()
   require(open == n_held(), "The gate does not open.");
 }
 
-/// A block of elastic soil, 0.4 m x 0.2 m, on the bottom of a wide box.
-void set_block(Parameters &parameters)
-{
-  parameters.output_directory                               = "results";
-  parameters.output.graphics                                = "none";
-  parameters.output.screen                                  = "nothing";
-  parameters.end_time                                       = 0.2;
-  parameters.transfer.method                                = "FLIP";
-  parameters.transfer.pic_rate                              = 0;
-  parameters.stabilisation.f_bar                            = "none";
-  parameters.grid.upper_corner                              = { 2., 0.5 };
-  auto &body                                                = parameters.bodies[0];
-  body.material.law                                         = "linear elastic";
-  body.material.of<LinearElasticParameters>().young_modulus = 1e6;
-  body.material.of<LinearElasticParameters>().poisson_ratio = 0.;
-  body.seeding.points_per_cell                              = 4;
-  body.seeding.grain_density                                = 2000;
-  body.seeding.region                                       = "x > 0.3 && x < 0.7 && y < 0.2";
-}
-
-/// Runs the block; the rows of its statistics, by column.
-std::vector<std::map<std::string, double>> rows_of_run(Parameters &parameters)
-{
-  Simulation<2>(parameters, Start::fresh, MPI_COMM_WORLD).run();
-  MPI_Barrier(MPI_COMM_WORLD);
-  std::ifstream in("results/statistics");
-  std::vector<std::string> columns;
-  std::vector<std::map<std::string, double>> result;
-  for (std::string line; std::getline(in, line);)
-    if (line[0] == '#')
-      columns.push_back(line.substr(line.find(": ") + 2));
-    else
-      {
-        std::istringstream numbers(line);
-        result.emplace_back();
-        for (const auto &column : columns)
-          numbers >> result.back()[column];
-      }
-  return result;
-}
-
-/// By how much a column falls below what it was in a row before.
-double largest_fall(std::vector<std::map<std::string, double>> &rows, const std::string &column)
-{
-  double largest = 0., top = -std::numeric_limits<double>::infinity();
-  for (auto &row : rows)
-    {
-      top     = std::max(top, row[column]);
-      largest = std::max(largest, top - row[column]);
-    }
-  return largest;
-}
-
-/// A block slides on a wall with friction, and is slowed down by the coefficient times gravity.
-void test_friction()
-{
-  Parameters parameters;
-  set_block(parameters);
-  parameters.boundaries.bottom                  = "friction 20";
-  parameters.bodies[0].seeding.initial_velocity = "3; 0";
-  parameters.bodies[0].initial_state.type       = "K0";
-  parameters.bodies[0].initial_state.k0         = "0";
-  auto row                                      = rows_of_run(parameters).back();
-
-  const double deceleration = (3. - row["Momentum x (N s)"] / row["Mass (kg)"]) / parameters.end_time;
-  const double wanted       = std::tan(20. * numbers::PI / 180.) * 9.81;
-  // 2 %: the block is elastic and bounces a little.
-  expect(deceleration / wanted, 1., 0.02, "deceleration over mu g");
-  // What the block loses, the wall takes.
-  const double work = row["Wall dissipation (J)"], lost = 0.5 * row["Mass (kg)"] * 9. - row["Kinetic energy (J)"];
-  expect(work / lost, 1., 0.02, "work of the wall over the lost energy");
-  expect(row["Momentum residual (N s)"], 0., 1e-12 * row["Mass (kg)"], "momentum residual");
-}
-
-/// A block flies through an open wall: what has left is counted, nothing else is missing.
-void test_open()
-{
-  Parameters parameters;
-  set_block(parameters);
-  parameters.boundaries.left                    = "open";
-  parameters.gravity                            = { 0., 0. };
-  parameters.boundaries.bottom                  = "free slip";
-  parameters.bodies[0].seeding.initial_velocity = "-2.5; 0";
-  auto row                                      = rows_of_run(parameters).back();
-
-  const double all = 2000 * 0.4 * 0.2, n_all = 16 * 8;
-  expect(row["Points lost"], n_all / 2, 0., "points of half the block, which have left");
-  expect(row["Points"] + row["Points lost"], n_all, 0., "all points");
-  expect(row["Mass (kg)"] + row["Mass lost (kg)"], all, 1e-11 * all, "all mass");
-  expect(row["Momentum residual (N s)"], 0., 1e-12 * all * 2.5, "momentum residual");
-}
-
-/// Through a closed wall no point may leave: a block that runs into a fixed wall rebounds. The wall takes what it stops
-/// at the nodes, and not what the block's stress brings there for a while.
-void test_fixed()
-{
-  Parameters parameters;
-  set_block(parameters);
-  parameters.boundaries.left                    = "fixed";
-  parameters.gravity                            = { 0., 0. };
-  parameters.boundaries.bottom                  = "free slip";
-  parameters.bodies[0].seeding.initial_velocity = "-2.5; 0";
-  parameters.output.statistics_interval         = 0.001;
-  auto rows                                     = rows_of_run(parameters);
-  auto row                                      = rows.back();
-
-  require(row["Points lost"] == 0 && row["Points"] == 128, "A point went through a wall.");
-  // The elastic block rebounds, on the wall that gave it at least its momentum.
-  expect(row["Momentum x (N s)"] / row["Mass (kg)"] / 2.5, 0.855096, 1e-6, "restitution");
-  expect(row["Momentum residual (N s)"], 0., 1e-12 * row["Mass (kg)"] * 2.5, "momentum residual");
-  const double brought = row["Mass (kg)"] * 0.5 * 6.25, taken = row["Wall dissipation (J)"] / brought;
-  require(taken > 0 && taken < 0.1, "A wall at rest took " + std::to_string(taken) + " of the energy");
-  expect(largest_fall(rows, "Wall dissipation (J)") / brought, 0., 1e-12, "energy from a wall at rest");
-  expect(largest_fall(rows, "Numerical dissipation (J)") / brought, 0., 2e-3, "energy gain of the block");
-}
-
 
 void run()
 {
   test_nodes();
   test_water();
   test_constraints();
-  test_friction();
-  test_open();
-  test_fixed();
 }
 
 const UnitTest registered("grid_walls", run);
