@@ -84,18 +84,11 @@ def set_entry(text, key, value):
         return "\n".join(lines)
 
     # The innermost subsection that exists takes the missing ones.
-    depth = len(wanted)
-    while depth > 0 and tuple(wanted[:depth]) not in ends:
-        depth -= 1
-    missing = wanted[depth:]
-    block = [f"subsection {name}" for name in missing] + [f"set {wanted_name} = {value}"] + ["end"] * len(missing)
-    level = depth
-    for number, line in enumerate(block):
-        level -= line == "end"
-        block[number] = "  " * level + line
-        level += line.startswith("subsection")
-    position = ends[tuple(wanted[:depth])] if depth > 0 else len(lines)
-    lines[position:position] = block
+    depth = next(depth for depth in range(len(wanted), -1, -1) if depth == 0 or tuple(wanted[:depth]) in ends)
+    missing = list(enumerate(wanted))[depth:]
+    position = ends.get(tuple(wanted[:depth]), len(lines))
+    lines[position:position] = [*("  " * level + f"subsection {name}" for level, name in missing), "  " * len(wanted) + f"set {wanted_name} = {value}",
+                                *("  " * level + "end" for level, _ in reversed(missing))]
     return "\n".join(lines)
 
 
