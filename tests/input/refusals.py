@@ -10,77 +10,63 @@ import resource
 import subprocess
 import sys
 
-SOIL = "subsection Soil\n  set Region = y < 0.5\nend\n"
-SHORT = "set End time = 2e-3\nset Output directory = run\nsubsection Output\n  set Graphics = none\nend\n"
-INSTANT = SHORT.replace("2e-3", "1e-9")
-LOAD = "subsection Surface load\n  set Lower corner = 0, 0.5\n  set Upper corner = 1, 0.5\n  set Traction = {}\nend\n"
+from scree.variants import set_entries
+
+SOIL = {"Soil/Region": "y < 0.5"}
+COULOMB = {**SOIL, "Soil/Material": "Mohr-Coulomb"}
+SHORT = {"End time": 2e-3, "Output directory": "run", "Output/Graphics": "none"}
+INSTANT = {**SHORT, "End time": 1e-9}
+LOAD = {"Surface load/Lower corner": "0, 0.5", "Surface load/Upper corner": "1, 0.5"}
 
 # case, what the error must be
 REFUSED = {
     "body force, not a number at the first step": (
-        SHORT + SOIL + "set Body force = 0; sqrt(-1 - x)\n",
-        r'^scree: stopped: case.prm, line 9: entry "Body force" = 0; sqrt\(-1 - x\): it is not a number at .* m, t = 0 s\. Write'),
+        {**SHORT, **SOIL, "Body force": "0; sqrt(-1 - x)"},
+        r'^scree: stopped: case.prm, line 10: entry "Body force" = 0; sqrt\(-1 - x\): it is not a number at .* m, t = 0 s\. Write'),
     "traction, infinite later": (
-        SHORT + SOIL + LOAD.format("0; -1/(t < 1e-3)"),
-        r'^scree: stopped: case.prm, line 12: subsection Surface load, entry "Traction" = .*: it is infinite at .* m, t = 0\.001\d* s\. Write'),
+        {**SHORT, **SOIL, **LOAD, "Surface load/Traction": "0; -1/(t < 1e-3)"},
+        r'^scree: stopped: case.prm, line 13: subsection Surface load, entry "Traction" = .*: it is infinite at .* m, t = 0\.001\d* s\. Write'),
     "more points than any memory holds": (
-        SHORT + "subsection Soil\n  set Region = y < 0.5\n  set Points per cell = 32\nend\n"
-        "subsection Mesh\n  set Upper corner = 10, 10\n  set Cell size = 1e-3\nend\n",
-        r'^scree: case.prm, line 8: subsection Soil, entry "Points per cell" = 32: the run would need about \S+ GB'),
+        {**SHORT, **SOIL, "Soil/Points per cell": 32, "Mesh/Upper corner": "10, 10", "Mesh/Cell size": 1e-3},
+        r'^scree: case.prm, line 9: subsection Soil, entry "Points per cell" = 32: the run would need about \S+ GB'),
 }
 
 # what a case that needs .6 GB ends with under a limit of so many bytes (ulimit -v); none: it runs
-MEMORY = (INSTANT + SOIL + "subsection Mesh\n  set Cell size = 4e-3\nend\n",
+MEMORY = ({**INSTANT, **SOIL, "Mesh/Cell size": 4e-3},
           {int(0.9e9): r'^scree: case.prm: subsection Soil, entry "Points per cell" = 3: the run would need about \S+ GB', None: ""})
 
 # case, the questions in the log
 QUESTIONED = {
-    "usual values": (INSTANT + SOIL, []),
+    "usual values": ({**INSTANT, **SOIL}, []),
     "cells wider than half of the length": (
-        INSTANT + "subsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\n  subsection Mohr-Coulomb\n    set Softening strain = 0.1\n"
-        "    set Residual friction angle = 20\n    set Nonlocal length = 0.15\n  end\nend\n",
+        {**INSTANT, **COULOMB, "Soil/Mohr-Coulomb/Softening strain": 0.1, "Soil/Mohr-Coulomb/Residual friction angle": 20, "Soil/Mohr-Coulomb/Nonlocal length": 0.15},
         ['entry "Nonlocal length" = 0.15: shear bands depend on cells wider than half of it, here 0.1 m. Use cells of at most 0.075 m.']),
     "cohesion without tension in water": (
-        INSTANT + "subsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\n  set Initial porosity = 0.4\n"
-        "  subsection Mohr-Coulomb\n    set Cohesion = 2e3\n  end\nend\nsubsection Water\n  set Phreatic surface = 0.5\nend\n",
+        {**INSTANT, **COULOMB, "Soil/Initial porosity": 0.4, "Soil/Mohr-Coulomb/Cohesion": 2e3, "Water/Phreatic surface": 0.5},
         ['entry "Tension cut-off" = 0: with cohesion, here 2000 Pa, soil in water opens in small waves']),
     "entries of a law that is not chosen": (
-        INSTANT + "subsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\n  subsection Tresca\n    set Undrained strength = 2e4\n  end\nend\n",
+        {**INSTANT, **COULOMB, "Soil/Tresca/Undrained strength": "2e4"},
         ['subsection Soil/Tresca, entry "Undrained strength" = 2e4: this entry has no effect, as "Material" is Mohr-Coulomb. Write "Material = Tresca", or']),
     "a base with the angle of its soil": (
-        INSTANT + "subsection Boundaries\n  set Bottom = friction 30\nend\nsubsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\nend\n",
+        {**INSTANT, **COULOMB, "Boundaries/Bottom": "friction 30"},
         ['Base stronger than the soil: subsection Boundaries, entry "Bottom" = 30 degrees: Soil shears on a plane at 26.565']),
-    "a base below cohesive soil": (
-        INSTANT + "subsection Boundaries\n  set Bottom = friction 40\nend\nsubsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\n"
-        "  subsection Mohr-Coulomb\n    set Cohesion = 1e3\n  end\nend\n", []),
+    "a base below cohesive soil": ({**INSTANT, **COULOMB, "Boundaries/Bottom": "friction 40", "Soil/Mohr-Coulomb/Cohesion": 1e3}, []),
     "a base with the angle of repose of its soil": (
-        INSTANT + "subsection Boundaries\n  set Bottom = friction 30\nend\nsubsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\n"
-        "  subsection Mohr-Coulomb\n    set Friction angle kind = direct shear or repose\n  end\nend\n", []),
+        {**INSTANT, **COULOMB, "Boundaries/Bottom": "friction 30", "Soil/Mohr-Coulomb/Friction angle kind": "direct shear or repose"}, []),
     "rain in mm/h, a water table above all soil": (
-        INSTANT + SOIL + "subsection Rain\n  set Rate = 50\nend\nsubsection Water\n  set Phreatic surface = 0.95\nend\n",
+        {**INSTANT, **SOIL, "Rain/Rate": 50, "Water/Phreatic surface": 0.95},
         ['subsection Rain, entry "Rate" = 50: the unit is m/s (1 mm/h = 2.78e-7 m/s)',
          'subsection Water, entry "Phreatic surface" = 0.95: all soil lies more than a cell below it']),
-    "a water table at the ground": (INSTANT + SOIL + "subsection Water\n  set Phreatic surface = 0.55\nend\n", []),
-    "water above the ground": (INSTANT + SOIL + "subsection Water\n  set Phreatic surface = 0.8\n  set Reservoir level = 0.8\nend\n", []),
+    "a water table at the ground": ({**INSTANT, **SOIL, "Water/Phreatic surface": 0.55}, []),
+    "water above the ground": ({**INSTANT, **SOIL, "Water/Phreatic surface": 0.8, "Water/Reservoir level": 0.8}, []),
     "a conductivity in m/d, and mPa s": (
-        INSTANT + SOIL + "subsection Transfer\n  set Method = TPIC\nend\n"
-        "subsection Water\n  set Hydraulic conductivity = 86\n  set Density = 1\nend\n",
+        {**INSTANT, **SOIL, "Transfer/Method": "TPIC", "Water/Hydraulic conductivity": 86, "Water/Density": 1},
         ['entry "Density" = 1: the unit is kg/m^3', 'entry "Hydraulic conductivity" = 86: the unit is m/s']),
 }
 
-TERRAIN = INSTANT + """set Dimension = 3
-set Gravity = 0, 0, -9.81
-%s
-subsection Bed
-  set Type = fixed
-  set Raster = heights.asc
-end
-subsection Soil
-  set Region = x < 10 && y < 10 && z < 1510
-  set Points per cell = 2
-end
-"""
-BOX = "subsection Mesh\n  set Lower corner = 0, 0, 1490\n  set Upper corner = 40, 40, 1530\n  set Cell size = 5\nend"
+TERRAIN = {**INSTANT, "Dimension": 3, "Gravity": "0, 0, -9.81", "Bed/Type": "fixed", "Bed/Raster": "heights.asc",
+           "Soil/Region": "x < 10 && y < 10 && z < 1510", "Soil/Points per cell": 2}
+BOX = {**TERRAIN, "Mesh/Lower corner": "0, 0, 1490", "Mesh/Upper corner": "40, 40, 1530", "Mesh/Cell size": 5}
 
 
 def heights(middle="1500"):
@@ -97,32 +83,32 @@ STRANGE = (r"^Unusual value: Bed: 1 heights of the raster lie outside -500 to 90
            r"If they stand for missing ones, write that value as NODATA_value\.$")
 # case, file heights.asc, lines that the log must have, how many questions
 LOGGED = {
-    "heights as they should be": (TERRAIN % BOX, heights(), [RANGE % (1500, 1500)], 0),
-    "a missing height": (TERRAIN % BOX, heights("-9999"), [r"^Bed: 1 of 25 heights of the raster are missing \(NODATA\)\. There is no ground around them: .*gdal_fillnodata\.$"], 0),
-    "0 in the middle": (TERRAIN % BOX, heights("0"), [RANGE % (0, 1500), STEPS % 0], 1),
-    "another mark of missing heights": (TERRAIN % BOX, heights("-32768"), [RANGE % (-32768, 1500), STRANGE % -32768, STEPS % -32768], 2),
-    "99999": (TERRAIN % BOX, heights("99999"), [RANGE % (1500, 99999), STRANGE % 99999, STEPS % 99999], 2),
+    "heights as they should be": (BOX, heights(), [RANGE % (1500, 1500)], 0),
+    "a missing height": (BOX, heights("-9999"), [r"^Bed: 1 of 25 heights of the raster are missing \(NODATA\)\. There is no ground around them: .*gdal_fillnodata\.$"], 0),
+    "0 in the middle": (BOX, heights("0"), [RANGE % (0, 1500), STEPS % 0], 1),
+    "another mark of missing heights": (BOX, heights("-32768"), [RANGE % (-32768, 1500), STRANGE % -32768, STEPS % -32768], 2),
+    "99999": (BOX, heights("99999"), [RANGE % (1500, 99999), STRANGE % 99999, STEPS % 99999], 2),
     "the raster's box": (
-        TERRAIN % "subsection Mesh\n  set Cell size = 6\nend", heights("1507"),
+        {**TERRAIN, "Mesh/Cell size": 6}, heights("1507"),
         [r"^Box from the raster, in whole cells: from 0, 0, 1488 to 36, 36, 1596 m; the raster reaches from 0, 0 to 40, 40 m, its heights from 1500 to 1507 m$"], 0),
     "no porosity and no stress": (
-        INSTANT + "subsection Soil\n  set Region = y < 0.5\n  set Material = Mohr-Coulomb\nend\n", "",
+        {**INSTANT, **COULOMB}, "",
         [r'^Soil at the start: 0\.5 m\^3/m, 1\d+ kg/m; 2\d+ kg/m\^3 dry: grains of 2\d+ kg/m\^3, porosity 0 \(no "Initial porosity" is set, and "Material = '
          r'Mohr-Coulomb" has none of its own\); no stress \("Type = none" in subsection Initial state\)$',
          r"^Soil at the end, at its density of the start: in the box 0\.5 m\^3/m, 1\d+ kg/m; lost through open walls 0 m\^3/m, 0 kg/m \(0 points\)$"], 0),
     "soil that leaves the box": (
-        SHORT + "subsection Soil\n  set Region = y < 0.5\n  set Initial porosity = 0.5\n  set Grain density = 2000\n  set Initial velocity = 20; 0\n"
-        "  subsection Initial state\n    set Type = K0\n  end\nend\nsubsection Boundaries\n  set Right = open\nend\n", "",
+        {**SHORT, **SOIL, "Soil/Initial porosity": 0.5, "Soil/Grain density": 2000, "Soil/Initial velocity": "20; 0", "Soil/Initial state/Type": "K0",
+         "Boundaries/Right": "open"}, "",
         [r"^Soil at the start: 0\.5 m\^3/m, 500 kg/m; 1000 kg/m\^3 dry: grains of 2000 kg/m\^3, porosity 0\.5; stress by weight, K0 = 0\.68",
          r"^Soil at the end, .*: in the box 0\.4\d* m\^3/m, 4\d\d\S* kg/m; lost through open walls 0\.0\d+ m\^3/m, [1-9]\S* kg/m \([1-9]\d* points\)$"], 0),
-    "settling": (SHORT + SOIL + "subsection Settling\n  set Maximum time = 0.01\n  set Unbalanced force = 0.01\nend\n", "",
+    "settling": ({**SHORT, **SOIL, "Settling/Maximum time": 0.01, "Settling/Unbalanced force": 0.01}, "",
                  [r"^Settled for \d\.\d{1,7} s in \d+ steps; unbalanced force over weight \S{1,12}"], 0),
 }
 
 
 def run(scree, case, limit=None):
     """Exit code and error of a case."""
-    pathlib.Path("case.prm").write_text(case, encoding="utf-8")
+    pathlib.Path("case.prm").write_text(set_entries("", case), encoding="utf-8")
 
     def set_limit():
         if limit:
