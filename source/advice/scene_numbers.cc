@@ -373,10 +373,9 @@ namespace scree
         { "of the run-out",
           2.4,
           1.,
-          "12 and 5 % of the way of the front of 90 % of the mass at H/h = 20 and 40 with TPIC, saturated loose slope "
-          "on "
-          "a base with friction, against the extrapolated front; extrapolated fronts of TPIC, FLIP and AFLIP differ by "
-          "12 %; the front of 99 % has no limit" } },
+          "12 and 5 % of the displacement of the front of 90 % of the mass at H/h = 20 and 40 with TPIC, saturated "
+          "loose slope on a base with friction, against the extrapolated front; extrapolated fronts of TPIC, FLIP and "
+          "AFLIP differ by 12 %; the front of 99 % has no limit" } },
       { [](const SceneNumbers &scene) {
          constexpr double least_grain= 0.005; // of the height; smaller ones hardly slow the flow
          return scene.grain_diameter > least_grain * scene.height;
@@ -384,25 +383,23 @@ namespace scree
         { "of the run-out",
           1.2,
           1.,
-          "2 to 10 % of the way of the front at H/h = 48 to 12, columns with inertial friction, d/H = 0.011, against "
-          "the "
-          "extrapolated front" } },
+          "2 to 10 % of the displacement of the front at H/h = 48 to 12, columns with inertial friction, d/H = 0.011, "
+          "against the extrapolated front" } },
       { [](const SceneNumbers &scene) { return scene.sticks; },
         { "of the run-out",
           3.8,
           1.,
-          "10 to 19 % of the way of the front at H/h = 20 on a base that holds the soil, against the extrapolated "
-          "front",
+          "10 to 19 % of the displacement of the front at H/h = 20 on a base that holds the soil, against the "
+          "extrapolated front",
           "",
-          "the front then runs ahead of experiments, by 20 to 40 % of its way. Set Grain diameter, or give the base "
-          "the "
-          "friction of the soil" } },
+          "the front then runs ahead of experiments, by 20 to 40 % of its displacement. Set Grain diameter, or give "
+          "the base the friction of the soil" } },
       { [](const SceneNumbers &) { return true; },
         { "of the run-out",
           1.6,
           1.,
-          "4 to 8 % of the way of the front of 90 % of the mass at H/h = 20 on a base with friction, against the "
-          "extrapolated front; the front of 99 % up to 14 % from H/h = 28 to 40" } }
+          "4 to 8 % of the displacement of the front of 90 % of the mass at H/h = 20 on a base with friction, against "
+          "the extrapolated front; the front of 99 % up to 14 % from H/h = 28 to 40" } }
     };
 
     /// Why the law of elastic soil, measured where a constant load drains, does not decide; empty: it does.

@@ -56,7 +56,7 @@ grep -q "as now: the error is not known" one_rank # fronts of saturated soil hav
 "$scree" --advise prm/slopes/first_slope.prm --accuracy 0.1 >text
 grep -q "cell size .*H/h = 1[6-9]" text # ten per cent of the dry run-out on a base with friction: 1.6 (h/H) = 0.1
 "$scree" --advise prm/columns/mohr_coulomb_collapse.prm --accuracy 0.1 >text
-grep -q "^  measured in such scenes .*10 to 19 % of the way of the front" text
+grep -q "^  measured in such scenes .*10 to 19 % of the displacement of the front" text
 grep -q "^  do not refine .*Set Grain diameter" text
 "$PYTHON" - <<END
 import pathlib

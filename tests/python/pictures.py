@@ -12,7 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
-from scree.pictures import fields, plane, rigid  # noqa: E402
+from scree.pictures import fields, panels, paraview, plane, rigid  # noqa: E402
 from scree.results import Box, Points  # noqa: E402
 
 CELL = 0.1
@@ -81,6 +81,29 @@ def check_ground(run):
     assert np.allclose(surfaces["Obstacle Hill"], [0.5 - (0.5 + 1.5), 0.1 - (0.1 + 0.3)]), surfaces
 
 
+def check_title(run):
+    """A trial of --safety has its factor: the largest at which the slope rests, the smallest at which it fails."""
+    (run / "safety.csv").write_text("factor,rests,displacement_m\n1,1,0.1\n1.3,1,0.1\n1.4,0,0.2\n1.69,0,0.3\n", encoding="utf-8")
+    assert panels._title(run / "rests", 0.) == "strength divided by 1.3: the slope rests"
+    assert panels._title(run / "fails", 0.) == "strength divided by 1.4: the slope fails"
+    assert panels._title(run, 2.5) == "t = 2.5 s"
+
+
+def check_paraview(run):
+    """The ground beside the script for ParaView is that of the bed, in the coordinates of the points."""
+    import vtk  # pylint: disable=import-outside-toplevel
+    (run / "parameters.prm").write_text("set Dimension = 3\nset Local origin = 100, 200\n"
+                                        "subsection Mesh\n  set Lower corner = 0, 0, 0\n  set Upper corner = 4, 2, 2\n  set Cell size = 0.1\nend\n"
+                                        "subsection Bed\n  set Type = fixed\n  set Level set expression = z - 0.5 - 0.2*x\nend\n", encoding="utf-8")
+    assert paraview.write_ground(run, box(3), run / "ground.vtk")
+    reader = vtk.vtkStructuredGridReader()
+    reader.SetFileName(str(run / "ground.vtk"))
+    reader.Update()
+    places = np.array([reader.GetOutput().GetPoint(i) for i in range(reader.GetOutput().GetNumberOfPoints())])
+    assert len(places) == 80 * 40 and np.allclose(places[:, 2], 0.5 + 0.2 * places[:, 0], atol=1e-5), places
+    assert np.allclose(places.min(axis=0)[:2], 0.025, atol=1e-6) and np.allclose(places.max(axis=0)[:2], [3.975, 1.975], atol=1e-6)
+
+
 def check_space(run):
     """The colour of the points, the ground and white paper are in the image."""
     from scree.pictures import space  # pylint: disable=import-outside-toplevel
@@ -105,6 +128,8 @@ def main():
     check_colours()
     check_areas()
     check_ground(run)
+    check_title(run)
+    check_paraview(run)
     if shutil.which("Xvfb"):
         check_space(run)
     else:

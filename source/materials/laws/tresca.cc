@@ -78,8 +78,8 @@ namespace scree
     prm.add_parameter(
         "Remoulding strain",
         remoulding_strain,
-        "Plastic shear strain (engineering strain: gamma in simple shear) at which strength has fallen by "
-        "95 % of the way to that of remoulded clay: 1/S_t + (1 - 1/S_t) exp(-3 strain/this).",
+        "Plastic shear strain (engineering strain: gamma in simple shear) at 95 % of the loss of strength: "
+        "1/S_t + (1 - 1/S_t) exp(-3 strain/this).",
         Patterns::Double(0));
     prm.add_parameter(
         "Nonlocal length",
@@ -140,8 +140,7 @@ namespace scree
     prm.add_parameter("Poisson's ratio", poisson_ratio, "Poisson's ratio.", Patterns::Double(-1, 0.5));
     prm.add_parameter("Yield stress",
                       yield_stress,
-                      "Pa; shear stress tau_y that mud bears at rest, half of the largest difference of principal "
-                      "stresses.",
+                      "Pa; yield stress tau_y in shear: half of the largest difference of principal stresses.",
                       Patterns::Double(0));
     prm.add_parameter("Consistency",
                       consistency,

@@ -128,6 +128,18 @@ def _colour_bar(figure, axes, scale):
     figure.colorbar(scale.mappable, ax=axes, label=fields.field_label(scale.name), extend=scale.extend, aspect=35, shrink=0.85, pad=0.02)
 
 
+def _title(run, time):
+    """The time of a picture; of a trial of --safety, which runs before the release, its factor and how it ended."""
+    run = pathlib.Path(run)
+    trials = run.parent / "safety.csv"
+    if run.name not in ("rests", "fails") or not trials.exists():
+        return f"t = {time:.4g} s"
+    table = np.atleast_1d(np.genfromtxt(trials, delimiter=",", names=True))
+    # The folders have the trials beside the factor of safety.
+    factor = np.max(table["factor"][table["rests"] == 1]) if run.name == "rests" else np.min(table["factor"][table["rests"] == 0])
+    return f"strength divided by {factor:.4g}: the slope {run.name}"
+
+
 def render_points(run, output, name, times=None, limits=None, collection="points", view=None):
     """Panels of a few times (default: first, a quarter, half, last) in one PNG. `view` in 3D: azimuth and elevation of the camera, degrees."""
     box = results.read_box(run)
@@ -147,7 +159,7 @@ def render_points(run, output, name, times=None, limits=None, collection="points
             panel.set_visible(False)
         for number, (panel, points) in enumerate(zip(axes.flat, pictures)):
             drawing.draw(panel, points, number == 0)
-            panel.set_title(f"t = {points.time:.4g} s", fontsize="medium")
+            panel.set_title(_title(run, points.time), fontsize="medium")
             if is_plane:
                 panel.label_outer()
         _colour_bar(figure, axes, scale)

@@ -5,7 +5,7 @@ import pathlib
 
 import numpy as np
 
-from scree import results
+from scree import results, terrain, variants
 from scree.pictures import fields, plane
 
 SCRIPT = '''\
@@ -47,6 +47,13 @@ def show(file, name, low, high, preset, inverted, radius, title):
     return source
 
 
+def show_ground(file):
+    ground = LegacyVTKReader(registrationName=file, FileNames=[os.path.join(folder, file)])
+    display = Show(ground, view)
+    display.SetRepresentationType("Surface")
+    display.AmbientColor = display.DiffuseColor = [0.75, 0.72, 0.67]
+
+
 # Values are in the SI units of the files.
 {shown}
 
@@ -83,8 +90,28 @@ def _camera(box, pictures):
     return focus, focus + 3 * np.linalg.norm(size) * towards, up, camera.half_height
 
 
+def write_ground(run, box, output):
+    """Writes the ground of a run in 3D as a surface; returns whether there is one."""
+    run = pathlib.Path(run)
+    origin = terrain.origin_of_maps(variants.read_entries(run / "parameters.prm"), 3)
+    try:
+        ground = terrain.ground(run, tuple(side[axis] + origin[axis] for axis in range(2) for side in (box.lower, box.upper)))
+    except (OSError, ValueError) as error:
+        print(f"The script has no ground: {error}")
+        return False
+    if ground is None:
+        return False
+    rows, columns = ground.values.shape
+    x = ground.x - origin[0] + (np.arange(columns) + 0.5) * ground.width
+    y = ground.y - origin[1] + (rows - np.arange(rows) - 0.5) * ground.width
+    places = np.stack([*np.meshgrid(x, y), np.nan_to_num(ground.values, nan=box.lower[2])], axis=-1).reshape(-1, 3)
+    head = f"# vtk DataFile Version 3.0\nground\nASCII\nDATASET STRUCTURED_GRID\nDIMENSIONS {columns} {rows} 1\nPOINTS {len(places)} float"
+    np.savetxt(output, places, "%.7g", header=head, comments="")
+    return True
+
+
 def write_state(run, output, chosen, limits=None):
-    """Writes the script. `chosen`: {collection: field}."""
+    """Writes the script, and in 3D the ground beside it. `chosen`: {collection: field}."""
     box, shown, seen = results.read_box(run), [], []
     for collection, name in chosen.items():
         available = results.read_times(run, collection)
@@ -99,6 +126,9 @@ def write_state(run, output, chosen, limits=None):
         seen += pictures
     focus, position, up, scale = _camera(box, seen)
     output = pathlib.Path(output)
+    ground = output.with_name(output.stem + "_ground.vtk")
+    if box.dim == 3 and write_ground(run, box, ground):
+        shown.append(f"show_ground({ground.name!r})")
     output.write_text(SCRIPT.format(
         run=run, name=output.name, name_of_picture=output.stem + ".png", absolute=str(output.resolve()), shown="\n".join(shown),
         shape="Plain circle" if box.dim == 2 else "Sphere", interaction=f"{box.dim}D", focus=_list(focus), position=_list(position), up=_list(up),

@@ -76,7 +76,7 @@ def verdict(rows):
 STUDY = Study(
     title="Transfer and time step",
     question="Which transfers are stable up to which time step, and what do they dissipate?",
-    advice="Keep the Courant number at 0.6, at most 0.9; use FLIP at 1 1/s in collapses.",
+    advice="Keep the default Courant number, at most 0.9; use FLIP at 1 1/s in collapses.",
     base="prm/columns/column_dense.prm", entries={"Output/Graphics": "points"},
     variants=product(SCENES, [Variant({"transfer": name}, entries) for name, entries in TRANSFERS.items()],
                      axis("step/limit", "Time step/Courant number", [0.2, 0.4, 0.6, 0.8, 1., 1.2, 1.5, 2.])),
