@@ -94,7 +94,7 @@ namespace scree
         const Wall floor =
             parameters.boundaries.walls(dim)[2 * axis + (parameters.gravity[axis] > 0)]; // in deal.II's numbering
         scene.sticks =
-            parameters.bed.is_set() ? parameters.bed.type_kind() == BedType::fixed : floor.type == WallType::fixed;
+            parameters.bed.is_set() ? parameters.bed.type_kind() == BedType::fixed : floor.holds == Wall::Holds::all;
         scene.is_elastic          = scene.has_soil;
         scene.grain_diameter      = scene.has_soil ? std::numeric_limits<double>::max() : 0;
         scene.has_water           = parameters.has_water;

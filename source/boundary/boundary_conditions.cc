@@ -1,14 +1,77 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/boundary/boundary_conditions.h>
 
+#include <map>
+#include <optional>
+
 namespace scree
 {
   using namespace dealii;
 
+  namespace
+  {
+    constexpr auto soil_walls = "Boundaries", water_walls = "Boundaries/Water";
+
+    /// The types of walls that the entries of a subsection may have.
+    std::vector<WallType> &wall_types(const std::string &subsection)
+    {
+      using Holds = Wall::Holds;
+      static std::map<std::string, std::vector<WallType>>
+          all = { { soil_walls,
+                    { { "fixed", "", [](const double) { return Wall{ Holds::all }; } },
+                      { "free slip", "", [](const double) { return Wall{ Holds::normal }; } },
+                      { "friction",
+                        "ANGLE (degrees, 0 to below 90)",
+                        [](const double angle) {
+                          return Wall{ Holds::normal, true, std::tan(angle * numbers::PI / 180.) };
+                        },
+                        0.,
+                        90. },
+                      { "open", "", [](const double) { return Wall(); } } } },
+                  { water_walls,
+                    { { "impermeable", "", [](const double) { return Wall{ Holds::normal }; } },
+                      { "no slip", "", [](const double) { return Wall{ Holds::all }; } },
+                      { "drained", "", [](const double) { return Wall(); } },
+                      { "drained", "PRESSURE (Pa)", [](const double pressure) {
+                         return Wall{ Holds::nothing, false, 0., pressure };
+                       } } } } };
+      return all.at(subsection);
+    }
+
+
+    /// What entries may have, for descriptions and messages.
+    std::string accepted_walls(const std::string &subsection)
+    {
+      std::string accepted;
+      for (const auto &type : wall_types(subsection))
+        accepted += (accepted.empty() ? "" : " | ") + type.name + (type.number.empty() ? "" : ' ' + type.number);
+      return accepted + '.';
+    }
+
+
+    /// Nothing if the text is no wall.
+    std::optional<Wall> read_wall(const std::string &subsection, const std::string &text)
+    {
+      for (const WallType &type : wall_types(subsection))
+        if (type.number.empty() && text == type.name)
+          return type.make(0.);
+        else if (!type.number.empty() && text.rfind(type.name + ' ', 0) == 0)
+          if (const double number = number_of(Utilities::trim(text.substr(type.name.size())));
+              number >= type.least && number < type.below)
+            return type.make(number);
+      return {};
+    }
+  } // namespace
+
+
+  RegisterWallType::RegisterWallType(const std::string &subsection, const WallType &type)
+  {
+    wall_types(subsection).push_back(type);
+  }
+
+
   FaceEntries::FaceEntries(const std::string &subsection,
                            const std::string &phase,
-                           const std::string &accepted,
-                           const ReadWall read,
                            const std::string &side,
                            const std::string &bottom,
                            const std::string &top)
@@ -20,16 +83,14 @@ namespace scree
       , top(top)
       , subsection(subsection)
       , phase(phase)
-      , accepted(accepted)
       , default_side(side)
-      , read(read)
   {
   }
 
 
   void FaceEntries::add_parameters(ParameterHandler &prm)
   {
-    const std::string what = " of the box" + phase + ": " + accepted + ".";
+    const std::string what = " of the box" + phase + ": " + accepted_walls(subsection);
     const auto path        = Utilities::split_string_list(subsection, '/');
     for (const std::string &name : path)
       prm.enter_subsection(name);
@@ -61,68 +122,24 @@ namespace scree
     std::vector<Wall> result;
     for (unsigned int f = 0; f < faces.size(); ++f)
       {
-        const std::optional<Wall> wall = read(entries[f]);
+        const std::optional<Wall> wall = read_wall(subsection, entries[f]);
         if (!wall)
-          throw EntryError(entry_name(subsection, faces[f]) + " = " + entries[f] + ": write one of: " + accepted + '.');
+          throw EntryError(entry_name(subsection, faces[f]) + " = " + entries[f] +
+                           ": write one of: " + accepted_walls(subsection));
         result.push_back(*wall);
       }
     return result;
   }
 
 
-  namespace
-  {
-    std::optional<Wall> soil_wall(const std::string &text)
-    {
-      if (text == "fixed")
-        return Wall{ WallType::fixed };
-      if (text == "free slip")
-        return Wall{ WallType::free_slip };
-      if (text == "open")
-        return Wall{ WallType::open };
-      if (text.rfind("friction ", 0) == 0)
-        if (const double angle = number_of(Utilities::trim(text.substr(9))); angle >= 0. && angle < 90.)
-          return Wall{ WallType::friction, std::tan(angle * numbers::PI / 180.) };
-      return {};
-    }
-
-
-    std::optional<Wall> water_wall(const std::string &text)
-    {
-      if (text == "impermeable")
-        return Wall{ WallType::free_slip };
-      if (text == "no slip")
-        return Wall{ WallType::fixed };
-      if (text == "drained")
-        return Wall{ WallType::open };
-      if (text.rfind("drained ", 0) == 0)
-        if (const double pressure = number_of(Utilities::trim(text.substr(8))); std::isfinite(pressure))
-          return Wall{ WallType::open, 0., pressure };
-      return {};
-    }
-  } // namespace
-
-
   BoundaryParameters::BoundaryParameters()
-      : FaceEntries("Boundaries",
-                    "",
-                    "fixed | free slip | friction ANGLE (degrees, 0 to below 90) | open",
-                    soil_wall,
-                    "free slip",
-                    "fixed",
-                    "open")
+      : FaceEntries(soil_walls, "", "free slip", "fixed", "open")
   {
   }
 
 
   WaterBoundaryParameters::WaterBoundaryParameters()
-      : FaceEntries("Boundaries/Water",
-                    ", for the water",
-                    "impermeable | no slip | drained | drained PRESSURE (Pa)",
-                    water_wall,
-                    "impermeable",
-                    "impermeable",
-                    "drained")
+      : FaceEntries(water_walls, ", for the water", "impermeable", "impermeable", "drained")
   {
   }
 
@@ -136,21 +153,13 @@ namespace scree
       if ((faces >> f) & 1)
         {
           const Tensor<1, dim> inward = (f % 2 == 0 ? 1. : -1.) * Point<dim>::unit_vector(f / 2);
-          switch (wall_list[f].type)
-            {
-            case WallType::fixed:
-              for (unsigned int a = 0; a < dim; ++a)
-                result.push_back({ Point<dim>::unit_vector(a), Type::fixed, 0. });
-              break;
-            case WallType::free_slip:
-              result.push_back({ inward, Type::fixed, 0. });
-              break;
-            case WallType::friction:
-              result.push_back({ inward, Type::unilateral, wall_list[f].friction_coefficient });
-              break;
-            case WallType::open:
-              break;
-            }
+          if (wall_list[f].lets_lift_off)
+            result.push_back({ inward, Type::unilateral, wall_list[f].friction_coefficient });
+          else if (wall_list[f].holds == Wall::Holds::all)
+            for (unsigned int a = 0; a < dim; ++a)
+              result.push_back({ Point<dim>::unit_vector(a), Type::fixed, 0. });
+          else if (wall_list[f].holds == Wall::Holds::normal)
+            result.push_back({ inward, Type::fixed, 0. });
         }
     return result;
   }

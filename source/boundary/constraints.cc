@@ -15,7 +15,7 @@ namespace scree
       , walls(walls)
       , water_walls(water_walls)
       , is_unilateral(std::any_of(walls.walls().begin(), walls.walls().end(), [](const Wall &wall) {
-        return wall.type == WallType::friction;
+        return wall.lets_lift_off;
       }))
   {
     reinit();

@@ -118,7 +118,7 @@ namespace scree
       parameters.water.check(parameters.gravity, parameters.bodies.size());
       parameters.water_boundaries.check(parameters.dimension);
       for (const Wall &wall : parameters.water_boundaries.walls(parameters.dimension))
-        require_entry(wall.type != WallType::open || wall.pressure >= parameters.pressure.cavitation_pressure,
+        require_entry(wall.holds != Wall::Holds::nothing || wall.pressure >= parameters.pressure.cavitation_pressure,
                       { "Water/Pressure", "Cavitation pressure", parameters.pressure.cavitation_pressure },
                       "a drained wall in subsection Boundaries/Water prescribes less: " + number_text(wall.pressure) +
                           " Pa. Water cavitates there. Write a lower number, or a higher pressure at the wall.");

@@ -466,7 +466,7 @@ namespace scree
                 obstacles.begin(),
                 obstacles.end(),
                 [](const ObstacleParameters &obstacle) { return obstacle.surface.friction_coefficient() > 0.; }) ||
-            std::any_of(walls.begin(), walls.end(), [](const Wall &wall) { return wall.type == WallType::friction; }));
+            std::any_of(walls.begin(), walls.end(), [](const Wall &wall) { return wall.lets_lift_off; }));
   }
 
 

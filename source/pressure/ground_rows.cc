@@ -99,14 +99,53 @@ namespace scree
 
 
   template <int dim>
-  void GroundRows<dim>::find_squares(const FlowField<dim> &values, std::vector<double> &result) const
+  void GroundRows<dim>::set_mobilities(const FlowField<dim> &mobilities)
   {
     const unsigned int n_nodes = grid.n_nodes_per_cell();
-    result.assign(all.size(), 0.);
-    for (unsigned int k = 0, first = 0; k < all.size(); ++k, first += n_nodes)
-      for (unsigned int i = 0; i < n_nodes; ++i)
-        result[k] +=
-            of_flow[first + i] * of_flow[first + i] * values[grid.nodes(facets[k]->cell)[i]][unsigned(all[k].phase)];
+    unsigned int n_numbers     = 0;
+    number_of_node.assign(2 * grid.numbering().n_local(), dealii::numbers::invalid_unsigned_int);
+    corners.clear();
+    responses.clear();
+    for (unsigned int k = 0; k < all.size(); ++k)
+      {
+        all[k].diagonal = 0.;
+        for (unsigned int i = 0; i < n_nodes; ++i)
+          {
+            const unsigned int node = nodes(k)[i], phase = unsigned(all[k].phase);
+            unsigned int &number = number_of_node[2 * node + phase];
+            if (number == dealii::numbers::invalid_unsigned_int)
+              number = n_numbers++;
+            corners.push_back(number);
+            responses.push_back(weight(k, i) * mobilities[node][phase]);
+            all[k].diagonal += weight(k, i) * responses.back();
+          }
+      }
+    motions.resize(n_numbers);
+  }
+
+
+  template <int dim>
+  void GroundRows<dim>::precondition(const Vectors &flows, Vectors &tractions)
+  {
+    const unsigned int n_nodes = grid.n_nodes_per_cell();
+    tractions.assign(all.size(), Tensor<1, dim>());
+    motions.assign(motions.size(), NodeRow{});
+    const auto relax = [&](const unsigned int k) {
+      const GroundRow<dim> &row = all[k];
+      NodeRow flow{};
+      for (unsigned int j = k * n_nodes; j < (k + 1) * n_nodes; ++j)
+        flow += of_flow[j] * motions[corners[j]];
+      const Tensor<1, dim> change =
+          row.traction_of(flows[k] - to_vector<dim>(flow) - row.compliance * row.along(tractions[k]));
+      tractions[k] += change;
+      const NodeRow added = to_row<dim>(change);
+      for (unsigned int j = k * n_nodes; j < (k + 1) * n_nodes; ++j)
+        motions[corners[j]] += responses[j] * added;
+    };
+    for (unsigned int k = 0; k < all.size(); ++k)
+      relax(k);
+    for (unsigned int k = all.size(); k-- > 0;)
+      relax(k);
   }
 
   template class GroundRows<2>;

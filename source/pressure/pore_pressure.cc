@@ -117,7 +117,7 @@ namespace scree
           surface,
           time_step,
           [&](const unsigned int vertex) { return storage * surface.water_volume(vertex); },
-          rows != nullptr);
+          rows);
     }
     const TimedPart timed(timer, TimerSection::pressure_solve);
     const auto result =

@@ -12,10 +12,10 @@ namespace scree
 
   namespace
   {
-    /// Diagonal of S by SchurOperator::find_diagonal() over that of L, of a vertex inside water,
-    /// with splines.
-    template <int dim>
-    constexpr double inside_water = dim == 2 ? 0.079 : 0.055;
+    /// In the preconditioner: of the inverse diagonal of S, beside the inverse of L. S is far less than L for pressures
+    /// that oscillate from vertex to vertex. CG iterations per step with 0.1, 0.2, 0.3: saturated slope 5.0, 4.6, 4.3;
+    /// saturated slide on a mountain 97, 100, 104.
+    constexpr double part_of_diagonal = 0.2;
   } // namespace
 
 
@@ -55,7 +55,7 @@ namespace scree
                                      const FreeSurface<dim> &surface,
                                      const double time_step,
                                      const std::function<double(unsigned int vertex)> &storage,
-                                     const bool has_rows)
+                                     GroundRows<dim> *of_ground)
   {
     if (numbering.update(mixture))
       {
@@ -73,22 +73,17 @@ namespace scree
         is_worn = true;
       }
     system.assemble(mixture, surface, time_step, storage);
-    storage_of_number.resize(system.n_owned());
-    scale_of_number.resize(system.n_owned());
+    storage_of_number.assign(system.n_owned(), 0.);
+    diagonal_of_number.assign(system.n_owned(), 0.);
     schur.find_diagonal(times_schur);
     for (unsigned int i = 0; i < storage_of_number.size(); ++i)
       if (system.is_unknown(i))
         {
           storage_of_number[i]  = storage(numbering.vertex(i));
-          const double diagonal = times_schur.local_element(numbering.vertex(i)) + storage_of_number[i];
-          const double inside   = inside_water<dim> * system.diagonal_of(i);
-          // No part of a cell reaches a vertex with a diagonal of 0: its p follows the neighbours.
-          scale_of_number[i] = diagonal > 0. ? std::sqrt(std::max(inside / diagonal, 1.)) : 1.;
+          diagonal_of_number[i] = times_schur.local_element(numbering.vertex(i)) + storage_of_number[i];
         }
-      else
-        storage_of_number[i] = scale_of_number[i] = 0.;
-    if (has_rows)
-      schur.find_diagonal_of_rows(diagonal_of_row);
+    if (of_ground)
+      of_ground->set_mobilities(schur.mobilities());
   }
 
 
@@ -107,7 +102,7 @@ namespace scree
     for (unsigned int k = 0; k < target.of_rows.size(); ++k)
       {
         const GroundRow<dim> &row = (*rows)[k];
-        target.of_rows[k] += regularisation * diagonal_of_row[k] * source.of_rows[k];
+        target.of_rows[k] += regularisation * row.diagonal * source.of_rows[k];
         if (row.held == HeldMotion::all)
           target.of_rows[k] += row.compliance * row.along(source.of_rows[k]);
       }
@@ -145,21 +140,15 @@ namespace scree
     product.clear(n_rows);
     Iterations result{ 0, std::sqrt(Utilities::MPI::sum(local_square(remainder), grid.communicator())) };
     double last_projection = 1., last_length = 1.;
-    while (result.residual > tolerance && result.n < most)
+    while (result.residual > accepted && result.n < most)
       {
+        preconditioner->vmult(preconditioned.of_vertices, remainder.of_vertices);
         for (unsigned int i = 0; i < n_owned; ++i)
-          scratch.of_vertices.local_element(i) = scale_of_number[i] * remainder.of_vertices.local_element(i);
-        preconditioner->vmult(preconditioned.of_vertices, scratch.of_vertices);
-        for (unsigned int i = 0; i < n_owned; ++i)
-          preconditioned.of_vertices.local_element(i) *= scale_of_number[i];
-        for (unsigned int k = 0; k < n_rows; ++k)
-          {
-            const GroundRow<dim> &row  = (*rows)[k];
-            const Tensor<1, dim> &flow = remainder.of_rows[k];
-            const Tensor<1, dim> along = row.along(flow);
-            preconditioned.of_rows[k] =
-                (flow - along) / diagonal_of_row[k] + along / (diagonal_of_row[k] + row.compliance);
-          }
+          if (diagonal_of_number[i] > 0.) // else no part of a cell reaches the vertex
+            preconditioned.of_vertices.local_element(i) +=
+                part_of_diagonal / diagonal_of_number[i] * remainder.of_vertices.local_element(i);
+        if (ground)
+          ground->precondition(remainder.of_rows, preconditioned.of_rows);
         vmult(product, preconditioned);
         keep_held_motion(product.of_rows);
 
@@ -256,7 +245,7 @@ namespace scree
     const auto has_converged = [&](const unsigned int most) {
       last = iterate(most);
       report.n_iterations += last.n;
-      return last.residual <= tolerance;
+      return last.residual <= accepted;
     };
     // A front that enters new cells can make the kept preconditioner useless within a step.
     const unsigned int patience = std::min(maximum_iterations, iterations_when_new + iterations_worth_a_preconditioner);
@@ -270,8 +259,8 @@ namespace scree
         AssertThrow(
             is_done,
             ExcMessage("The pressure solver did not converge: after " + std::to_string(last.n) +
-                       " iterations the residual is " + std::to_string(last.residual / tolerance) +
-                       " times the wanted one. Remedies: a smaller 'Courant number' in subsection Time step, "
+                       " iterations the residual is " + std::to_string(last.residual / accepted) +
+                       " times the accepted one. Remedies: a smaller 'Courant number' in subsection Time step, "
                        "more 'Maximum iterations' or a larger 'Relative tolerance' in subsection Water/Pressure."));
         is_worn             = false;
         iterations_when_new = last.n;
@@ -304,7 +293,7 @@ namespace scree
 
 
   template <int dim>
-  double PressureSolver<dim>::choose_vertices(const Task &task, const bool is_last)
+  double PressureSolver<dim>::choose_vertices(const Task &task, const bool releases)
   {
     double change = 0.;
     for (unsigned int i = 0; i < is_held.size(); ++i)
@@ -313,9 +302,9 @@ namespace scree
           double &value      = solution.of_vertices.local_element(i);
           const double left  = residual.of_vertices.local_element(i);
           const double least = task.least_pressure - task.pressure.local_element(numbering.vertex(i));
-          const bool holds   = is_held[i] ? is_last || left <= tolerance : value < least;
+          const bool holds   = is_held[i] ? !releases || left <= accepted : value < least;
           if (holds != bool(is_held[i]))
-            change = std::numeric_limits<double>::max();
+            change += holds ? std::pow(diagonal_of_number[i] * (least - value), 2) : left * left;
           is_held[i] = holds;
           if (holds)
             value = least;
@@ -342,7 +331,7 @@ namespace scree
           }
         else if (releases && row.held != HeldMotion::none && pressing <= 0.)
           {
-            change += (diagonal_of_row[k] * traction).norm_square();
+            change += (row.diagonal * traction).norm_square();
             row.held       = HeldMotion::none;
             row.compliance = 0.;
             traction       = Tensor<1, dim>();
@@ -368,7 +357,7 @@ namespace scree
         const Tensor<1, dim> &traction = solution.of_rows[k];
         const Tensor<1, dim> along     = row.along(traction),
                              slip      = row.along(residual.of_rows[k]) + row.compliance * along;
-        const double step              = part_of_response * diagonal_of_row[k];
+        const double step              = part_of_response * row.diagonal;
         const double available         = row.friction * (traction * row.normal);
         const double needed            = (along + slip / step).norm();
         const double before            = row.compliance;
@@ -407,11 +396,12 @@ namespace scree
 
   template <int dim>
   typename PressureSolver<dim>::Result
-  PressureSolver<dim>::solve(const Task &task, VertexVector &change, GroundRows<dim> *ground)
+  PressureSolver<dim>::solve(const Task &task, VertexVector &change, GroundRows<dim> *of_ground)
   {
     constexpr unsigned int most_sweeps   = 5;   // What changes after them is held without another solve.
-    constexpr unsigned int most_releases = 3;   // Then rows are only added, so that the search ends.
+    constexpr unsigned int most_releases = 3;   // Then rows and pressures are only added, so that the search ends.
     constexpr double coarser             = 10.; // friction that changes by less has been found
+    ground                               = of_ground;
     rows                                 = ground ? &ground->all : nullptr;
     for (Joint *vector : { &source, &solution, &scratch })
       vector->of_rows.assign(rows ? rows->size() : 0, Tensor<1, dim>());
@@ -435,21 +425,26 @@ namespace scree
         find_residual();
         choose_friction();
       }
+    // What is held is searched for with coarser solves.
+    const double coarsest = rows ? 3. * tolerance : tolerance;
+    accepted              = coarsest;
     for (unsigned int pass = 1;; ++pass)
       {
         for (unsigned int sweep = 0;; ++sweep)
           {
             converge(pass == 1 && sweep == 0 ? result.first : result.further);
-            const bool is_last = sweep == most_sweeps;
-            double found       = 0.;
+            const bool is_last = sweep == most_sweeps, releases = pass == 1 && sweep < most_releases;
+            double found = 0.;
             if (rows || sweep > 0)
               find_residual();
             if (task.has_pressure)
-              found += choose_vertices(task, is_last);
+              found += choose_vertices(task, releases);
             if (rows && !is_last)
-              found += choose_rows(sweep < most_releases);
-            if (is_last || Utilities::MPI::sum(found, grid.communicator()) <= tolerance * tolerance)
+              found += choose_rows(releases);
+            found = std::sqrt(Utilities::MPI::sum(found, grid.communicator()));
+            if (is_last || (found <= tolerance && accepted == tolerance))
               break;
+            accepted = sweep + 1 == most_sweeps ? tolerance : std::clamp(found / coarser, tolerance, coarsest);
           }
         if (!rubs || pass == most_passes ||
             Utilities::MPI::sum(choose_friction(), grid.communicator()) <= std::pow(coarser * tolerance, 2))

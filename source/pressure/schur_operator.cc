@@ -188,7 +188,7 @@ namespace scree
 
 
   template <int dim>
-  void SchurOperator<dim>::find_diagonal_of_rows(std::vector<double> &diagonal)
+  const FlowField<dim> &SchurOperator<dim>::mobilities()
   {
     clear_flow();
     for (const PressedNode<dim> &node : nodes->all)
@@ -197,7 +197,7 @@ namespace scree
         flow[node.node][unsigned(Phase::water)] = time_step * node.mobility.water;
       }
     flow.update_ghosts();
-    rows->find_squares(flow, diagonal);
+    return flow;
   }
 
 

@@ -8,25 +8,44 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <optional>
+#include <limits>
 
 namespace scree
 {
-  /// What a face of the box does to soil or water.
-  enum class WallType
-  {
-    fixed,     ///< no motion; entry of the water: no slip
-    free_slip, ///< no motion along the normal; entry of the water: impermeable
-    friction,  ///< soil: no motion into the wall, Coulomb friction along it; the soil may lift off
-    open       ///< points may leave; entry of the water: drained, its pressure is prescribed
-  };
-
   /// What one face of the box does to soil or water.
   struct Wall
   {
-    WallType type               = WallType::open; ///< constraint of the velocity
-    double friction_coefficient = 0;              ///< tan of the friction angle; walls with friction only
-    double pressure             = 0;              ///< of the water, Pa; open walls only
+    /// Which velocity it takes.
+    enum class Holds
+    {
+      nothing, ///< points may leave
+      normal,
+      all
+    };
+
+    Holds holds                 = Holds::nothing;
+    bool lets_lift_off          = false; ///< it holds soil that moves into it, with Coulomb friction along it
+    double friction_coefficient = 0;     ///< of one that soil lifts off from; may be infinite
+    double pressure             = 0;     ///< of the water where it holds nothing, Pa
+  };
+
+  /// A kind of wall, as entries have it: its name, or name and number.
+  struct WallType
+  {
+    std::string name;
+    std::string number; ///< what the number is, for messages and pages; empty: there is none
+    Wall (*make)(const double number);
+    double least = std::numeric_limits<double>::lowest(); ///< of the number
+    double below = std::numeric_limits<double>::max();    ///< limit that it does not reach
+  };
+
+  /// Adds a type of walls for soil (subsection Boundaries) or water (Boundaries/Water); its source file has one as a
+  /// static constant.
+  class RegisterWallType
+  {
+  public:
+    /// @param subsection whose entries may have it
+    RegisterWallType(const std::string &subsection, const WallType &type);
   };
 
   /// One entry a face of the box, in a subsection of walls.
@@ -65,23 +84,17 @@ namespace scree
     std::vector<Wall> walls(const unsigned int dim) const;
 
   protected:
-    using ReadWall = std::optional<Wall> (*)(const std::string &text); ///< nothing: the text is no wall
-
     /// @param subsection its path
     /// @param phase on which the walls act, for the descriptions of the entries
-    /// @param accepted what may be written, for descriptions and messages
     /// @param side default of the walls but for bottom and top
     FaceEntries(const std::string &subsection,
                 const std::string &phase,
-                const std::string &accepted,
-                const ReadWall read,
                 const std::string &side,
                 const std::string &bottom,
                 const std::string &top);
 
   private:
-    std::string subsection, phase, accepted, default_side;
-    ReadWall read;
+    std::string subsection, phase, default_side;
   };
 
   /// Subsection Boundaries: the walls for the soil.
@@ -123,11 +136,12 @@ namespace scree
     /// Which of these faces take the impulses.
     BearingFaces<dim> bearing_faces(const std::uint8_t faces) const
     {
-      const auto type = [this](const unsigned int face) { return wall_list[face].type; };
       return BearingFaces<dim>(
           faces,
-          [&](const unsigned int face) { return type(face) != WallType::open; },
-          [&](const unsigned int face) { return type(face) == WallType::fixed || type(face) == WallType::friction; });
+          [this](const unsigned int face) { return !is_open(face); },
+          [this](const unsigned int face) {
+            return wall_list[face].holds == Wall::Holds::all || wall_list[face].lets_lift_off;
+          });
     }
 
     /// One wall a face of the box, in deal.II's numbering.
@@ -139,7 +153,7 @@ namespace scree
     /// Whether points may leave through a face.
     bool is_open(const unsigned int face) const
     {
-      return wall_list[face].type == WallType::open;
+      return wall_list[face].holds == Wall::Holds::nothing;
     }
 
     /// The faces that are open, bit f: face f.

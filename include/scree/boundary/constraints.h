@@ -117,7 +117,7 @@ namespace scree
     /// Whether soil sticks to a face of the box.
     bool is_fixed(const unsigned int face) const
     {
-      return walls.walls()[face].type == WallType::fixed;
+      return walls.walls()[face].holds == Wall::Holds::all;
     }
 
     /// Those of a node of this rank's cells; null where there are none.

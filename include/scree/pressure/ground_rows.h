@@ -58,6 +58,7 @@ namespace scree
     dealii::Tensor<1, dim> traction; ///< on the ground, Pa; holds the initial guess before the solve
     HeldMotion held   = HeldMotion::none; ///< in the current solve
     double compliance = 0.;               ///< flow along the ground over the traction along it, m^dim/(Pa s); 0: sticks
+    double diagonal   = 0.; ///< of dt N A^-1 N^T, as if no walls held the nodes, m^dim/(Pa s); see set_mobilities()
 
     /// The part of a vector that the ground holds.
     dealii::Tensor<1, dim> held_part(const dealii::Tensor<1, dim> &vector) const
@@ -65,6 +66,13 @@ namespace scree
       return held == HeldMotion::none     ? dealii::Tensor<1, dim>()
              : held == HeldMotion::across ? (vector * normal) * normal
                                           : vector;
+    }
+
+    /// The traction, Pa, that alone would take a flow from what is held, m^dim/s.
+    dealii::Tensor<1, dim> traction_of(const dealii::Tensor<1, dim> &flow) const
+    {
+      const dealii::Tensor<1, dim> taken = held_part(flow), tangential = along(taken);
+      return (taken - tangential) / diagonal + tangential / (diagonal + compliance);
     }
 
     /// The part of a vector along the ground.
@@ -113,9 +121,13 @@ namespace scree
     /// Flow into the ground at the rows, m^dim/s: N times a flow whose ghosts hold values.
     void find_flows(const FlowField<dim> &flow, Vectors &result) const;
 
-    /// Sums over the nodes of the rows of the squared shape functions times area, times the first number of a node
-    /// (soil) or the second (water).
-    void find_squares(const FlowField<dim> &values, std::vector<double> &result) const;
+    /// Finds the diagonal of the rows, and what precondition() needs.
+    /// @param mobilities time step over mass of soil (first number of a node) and of water (second), with drag, m/(N s)
+    void set_mobilities(const FlowField<dim> &mobilities);
+
+    /// Sets `tractions` to those of one symmetric sweep of Gauss-Seidel over this rank's rows, from 0: an approximate
+    /// inverse of dt N A^-1 N^T with the compliances, symmetric and positive, on what the ground holds.
+    void precondition(const Vectors &flows, Vectors &tractions);
 
     /// Shape function of a row at a node of its cell times the area, m^(dim-1).
     double weight(const unsigned int row, const unsigned int i) const
@@ -143,7 +155,12 @@ namespace scree
   private:
     const BackgroundGrid<dim> &grid;
     std::vector<const CutFacet<dim> *> facets; // by row
-    std::vector<double> of_flow, of_discharge; // shape functions in u and in q, a row's nodes behind each other
+    // A row's nodes behind each other: shape functions in u and in q, and velocities of a phase's nodes for a unit
+    // traction at the row; their numbers among those that rows act on.
+    std::vector<double> of_flow, of_discharge, responses;
+    std::vector<unsigned int> corners;
+    std::vector<unsigned int> number_of_node; // by node and phase
+    std::vector<NodeRow> motions;             // by number, m/s
   };
 } // namespace scree
 

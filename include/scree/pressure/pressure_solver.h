@@ -25,10 +25,10 @@ namespace scree
 
   /// The system for the change of the pressure, S dp = b, on the vertices of the cells that hold water.
   ///
-  /// The matrix (SchurOperator) is applied cell by cell and never stored. The algebraic multigrid preconditioner of the
-  /// conjugate gradients is that of L (PressureOperator), scaled up where the diagonal of S is small beside it: at
-  /// vertices with little water about them. It is kept over steps and made anew when it gets worse. The numbering of
-  /// the unknowns, too, serves many steps.
+  /// The matrix (SchurOperator) is applied cell by cell and never stored. The preconditioner of the conjugate gradients
+  /// is the algebraic multigrid of L (PressureOperator), which is kept over steps and made anew when it gets worse, and
+  /// a part of the inverse diagonal of S; at rows of the ground a symmetric sweep over them. The numbering of the
+  /// unknowns, too, serves many steps.
   template <int dim>
   class PressureSolver
   {
@@ -45,12 +45,12 @@ namespace scree
 
     /// Sets the diagonal of the matrix and its preconditioner. Collective.
     /// @param storage what the diagonal of a vertex gains: of compressible water, m^3/(Pa s)
-    /// @param has_rows whether the matrix has rows of the ground on any rank
+    /// @param of_ground its rows; null: none on any rank
     void assemble(const Mixture<dim> &mixture,
                   const FreeSurface<dim> &surface,
                   const double time_step,
                   const std::function<double(unsigned int vertex)> &storage,
-                  const bool has_rows);
+                  GroundRows<dim> *of_ground);
 
     /// What a solve begins with.
     struct Task
@@ -140,7 +140,8 @@ namespace scree
     void start_rows();
 
     /// Chooses anew which pressures are prescribed; the square of the flow by which that changed on this rank.
-    double choose_vertices(const Task &task, const bool is_last);
+    /// @param releases those that rise by themselves; else more are only added
+    double choose_vertices(const Task &task, const bool releases);
 
     /// Chooses anew which rows press; the same.
     /// @param releases rows that pull; else they are only added
@@ -156,17 +157,18 @@ namespace scree
     PressureOperator<dim> system;
     const unsigned int maximum_iterations;
     SchurOperator<dim> &schur;
-    VertexVector of_schur, times_schur;    // by vertex
-    std::vector<double> storage_of_number; // on the diagonal, of owned numbers
-    std::vector<double> scale_of_number;   // of the preconditioner, at least 1; see assemble()
+    VertexVector of_schur, times_schur;     // by vertex
+    std::vector<double> storage_of_number;  // on the diagonal, of owned numbers
+    std::vector<double> diagonal_of_number; // of S with the storage, m^3/(Pa s)
 
-    std::vector<GroundRow<dim>> *rows = nullptr; // of a solve; null: none
-    std::vector<double> diagonal_of_row;         // of dt N A^-1 N^T, m^dim/(Pa s)
+    GroundRows<dim> *ground           = nullptr; // of a solve; null: none
+    std::vector<GroundRow<dim>> *rows = nullptr; // its rows
     std::vector<char> is_held;                   // by owned number: at the least pressure
     Joint source, solution, residual, scratch;
     // Of iterate(): what is left of the source, that preconditioned, that times S; the step's direction, that times S.
     Joint remainder, preconditioned, product, direction, direction_product;
     double tolerance      = 0;  // of the last solve's residual, m^3/s
+    double accepted       = 0;  // of the current one's: the search for what is held begins with more
     double weight_of_rows = 1.; // of the squares of flows at rows against those at vertices, in norms
 
     std::unique_ptr<PressurePreconditioner<dim>> preconditioner;

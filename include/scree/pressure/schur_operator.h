@@ -106,8 +106,8 @@ namespace scree
     /// itself. To be called after assemble(). Collective.
     void find_diagonal(VertexVector &target);
 
-    /// Diagonal of dt N A^-1 N^T, m^dim/(Pa s), as if no walls held the nodes. Collective.
-    void find_diagonal_of_rows(std::vector<double> &diagonal);
+    /// For GroundRows::set_mobilities(), without walls and with ghosts; to be read before the next call. Collective.
+    const FlowField<dim> &mobilities();
 
     /// Sets `target` to T^T (B u - c - H p), m^3/s, with c of the ground that is not yet reached or moves.
     /// Collective.

@@ -76,14 +76,45 @@ def make(seed, size, spacing, rim, relief, feature, missing="none"):
     return heights, np.where(np.isnan(heights), 0, thickness)
 
 
-def case_text(heights, thickness, spacing, cell):
-    """A dry slide to rest."""
+def saturated_region(heights, thickness, spacing):
+    """Expression of half an ellipsoid over the ground, with place, axes and thickness of a release and the mean slope below it."""
+    y, x = np.indices(heights.shape) * spacing
+    inside = thickness > 0
+    x, y, z, weight = x[inside], y[inside], heights[inside], thickness[inside] / thickness.sum()
+    x_mean, y_mean = (weight * x).sum(), (weight * y).sum()
+    across, along = np.sqrt(6 * (weight * (x - x_mean) ** 2).sum()), np.sqrt(6 * (weight * (y - y_mean) ** 2).sum())
+    level, slope_x, slope_y = np.linalg.lstsq(np.stack([np.ones(x.size), x - x_mean, y - y_mean], 1), z, rcond=None)[0]
+    plane = f"{level:.4g} + {slope_x:.4g}*(x - {x_mean:.4g}) + {slope_y:.4g}*(y - {y_mean:.4g})"
+    return (f"((x - {x_mean:.4g})/{across:.4g})^2 + ((y - {y_mean:.4g})/{along:.4g})^2 + "
+            f"((z - ({plane}))/{thickness.max():.4g})^2 < 1")
+
+
+WATER = """
+subsection Boundaries
+  subsection Water
+    set Left  = drained
+    set Right = drained
+    set Front = drained
+    set Back  = drained
+  end
+end
+
+subsection Water
+  set Points per cell        = 3
+  set Hydraulic conductivity = 1e-3                 # m/s
+end
+"""
+
+
+def case_text(heights, thickness, spacing, cell, is_saturated=False):
+    """A slide to rest."""
+    release = f"set Region           = {saturated_region(heights, thickness, spacing)}" if is_saturated else "set Thickness        = release.asc"
     lower = [cell, cell, cell * np.floor(np.nanmin(heights) / cell - 1)]
     upper = [(n - 1) * spacing for n in heights.shape[::-1]] + [np.nanmax(heights + thickness) + 5 * cell]
     upper = [low + cell * np.floor((high - low - (cell if axis < 2 else 0)) / cell) for axis, (low, high) in enumerate(zip(lower, upper))]
     corner = [", ".join(f"{value:g}" for value in place) for place in (lower, upper)]
     walls = "\n".join(f"  set {face:6} = open" for face in ("Bottom", "Left", "Right", "Front", "Back"))
-    return f"""# A dry slide on a mountain side that scree-mountain has made.
+    return f"""# A slide on a mountain side that scree-mountain has made.
 set Dimension        = 3
 set End time         = 60                           # s
 set Output directory = out
@@ -106,7 +137,7 @@ subsection Boundaries
 end
 
 subsection Soil
-  set Thickness        = release.asc
+  {release}
   set Material         = Mohr-Coulomb
   set Points per cell  = 3
   set Grain density    = 2650                       # kg/m^3
@@ -127,10 +158,11 @@ subsection Output
     set Least thickness = 0.1                       # m
   end
 end
-"""
+""" + (WATER if is_saturated else "")
 
 
-def make_case(folder, seed, size="large", spacing=10., cell=10., rim="thin", relief="rough", feature="none", missing="none"):
+def make_case(folder, seed, size="large", spacing=10., cell=10., rim="thin", relief="rough", feature="none", missing="none",
+              is_saturated=False):
     """Writes the rasters and the case into a folder; returns heights and thickness, m."""
     for name, length in (("spacing", spacing), ("cell", cell)):
         if length <= 0:
@@ -139,7 +171,7 @@ def make_case(folder, seed, size="large", spacing=10., cell=10., rim="thin", rel
     folder.mkdir(parents=True, exist_ok=True)
     write_raster(folder / "terrain.asc", np.where(np.isnan(heights), -9999, heights), spacing)
     write_raster(folder / "release.asc", thickness, spacing)
-    (folder / "case.prm").write_text(case_text(heights, thickness, spacing, cell), encoding="utf-8")
+    (folder / "case.prm").write_text(case_text(heights, thickness, spacing, cell, is_saturated), encoding="utf-8")
     return heights, thickness
 
 
@@ -160,4 +192,5 @@ def main():
     parser.add_argument("--feature", choices=("none", "gully", "cliff"), default="none", help="a channel below the release, or a step in the slope; default: none")
     parser.add_argument("--missing", choices=("none", "hole", "island", "edge"), default="none",
                         help="ground without heights: a hole in the path, a ring around an island, an irregular edge of the raster; default: none")
+    parser.add_argument("--saturated", dest="is_saturated", action="store_true", help="soil with separate points of water, half an ellipsoid as large as the release")
     parser.run(_make_case)
