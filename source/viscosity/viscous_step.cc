@@ -91,10 +91,7 @@ namespace scree
   template <int dim>
   void ViscousForce<dim>::add(const WaterPhase<dim> &water, const NodalField<dim> &motion, NodalField<dim> &field) const
   {
-    if (grid.n_nodes_1d() == 2)
-      add_points<2>(water, motion, field);
-    else
-      add_points<3>(water, motion, field);
+    with_nodes_1d(grid, [&](auto n) { add_points<n>(water, motion, field); });
   }
 
 

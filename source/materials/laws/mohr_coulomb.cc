@@ -114,8 +114,7 @@ namespace scree
 
   void MohrCoulombParameters::add_parameters(ParameterHandler &prm)
   {
-    prm.add_parameter("Young's modulus", young_modulus, "Pa; Young's modulus.", Patterns::Double(0));
-    prm.add_parameter("Poisson's ratio", poisson_ratio, "Poisson's ratio.", Patterns::Double(-1, 0.5));
+    LinearElasticParameters::add_parameters(prm);
     prm.add_parameter("Friction angle", friction_angle, "degrees; friction angle phi.", Patterns::Double(0, 89));
     prm.add_parameter("Friction angle kind",
                       angle_kind,
@@ -167,18 +166,17 @@ namespace scree
     const auto require = [&](const bool is_met, const std::string &entry, const double value, const std::string &text) {
       require_entry(is_met, { subsection, entry, value }, text);
     };
-    require(last.cohesion <= cohesion,
-            "Residual cohesion",
-            last.cohesion,
-            "strength falls from its peak, here " + number_text(cohesion) + " Pa; lower the value.");
-    require(last.friction_angle <= friction_angle,
-            "Residual friction angle",
-            last.friction_angle,
-            "strength falls from its peak, here " + number_text(friction_angle) + " degrees; lower the value.");
-    require(last.dilation_angle <= dilation_angle,
-            "Residual dilation angle",
-            last.dilation_angle,
-            "dilation falls from its peak, here " + number_text(dilation_angle) + " degrees; lower the value.");
+    const auto require_fall =
+        [&](const std::string &entry, const double value, const double peak, const std::string &unit) {
+          require(value <= peak,
+                  "Residual " + entry,
+                  value,
+                  (entry == "dilation angle" ? "dilation" : "strength") + std::string(" falls from its peak, here ") +
+                      number_text(peak) + ' ' + unit + "; lower the value.");
+        };
+    require_fall("cohesion", last.cohesion, cohesion, "Pa");
+    require_fall("friction angle", last.friction_angle, friction_angle, "degrees");
+    require_fall("dilation angle", last.dilation_angle, dilation_angle, "degrees");
     require(last.dilation_angle <= last.friction_angle,
             "Residual dilation angle",
             last.dilation_angle,
@@ -202,7 +200,7 @@ namespace scree
 
   void MohrCoulombParameters::check(const std::string &subsection) const
   {
-    LinearElasticParameters(young_modulus, poisson_ratio).check(subsection);
+    LinearElasticParameters::check(subsection);
     require_entry(dilation_angle <= friction_angle,
                   { subsection, "Dilation angle", dilation_angle },
                   "beyond the friction angle, here " + number_text(friction_angle) +
@@ -301,21 +299,25 @@ namespace scree
 
 
   MohrCoulomb::MohrCoulomb(const MohrCoulombParameters &parameters)
-      : elastic(LinearElasticParameters(parameters.young_modulus, parameters.poisson_ratio))
-      , shear(elastic.shear_modulus())
+      : own_strength(strength_of(parameters))
+      , elastic(parameters)
       , bulk(elastic.bulk_modulus(0))
       , vertex(std::min(parameters.tension_cut_off, parameters.apex()))
       , largest_principal_stress(parameters.tension_cut_off)
-      , on_plane(parameters.sine() * std::cos(radians(parameters.dilation_angle)) /
-                 (1 - parameters.sine() * std::sin(radians(parameters.dilation_angle))))
       , cohesionless(parameters.apex() == 0)
       , inertial_friction(parameters.inertial_friction)
-      , surfaces(strength_of(parameters),
+      , surfaces(own_strength,
                  largest_principal_stress,
                  bulk,
-                 shear,
+                 elastic.shear_modulus,
                  largest_principal_stress < parameters.apex()) // else the cut-off only touches the apex
   {
+    shear_modulus = elastic.shear_modulus;
+    if (cohesionless)
+      plane_friction = own_strength.sine * std::cos(radians(parameters.dilation_angle)) /
+                       (1 - own_strength.sine * own_strength.dilation_sine);
+    grain_diameter      = inertial_friction.diameter();
+    internal_quantities = { { "plastic_shear_strain", "-" } };
   }
 
 
@@ -324,11 +326,13 @@ namespace scree
     PrincipalValues closed = strain; // closes one axis after the other
     std::sort(closed.rbegin(), closed.rend());
     const auto sum    = [](const PrincipalValues &values) { return values[0] + values[1] + values[2]; };
-    const double lame = bulk - 2. / 3. * shear;
-    for (unsigned int n = 1; n <= 3 && lame * sum(closed) + 2 * shear * closed[n - 1] > largest_principal_stress; ++n)
+    const double lame = bulk - 2. / 3. * shear_modulus;
+    for (unsigned int n = 1;
+         n <= 3 && lame * sum(closed) + 2 * shear_modulus * closed[n - 1] > largest_principal_stress;
+         ++n)
       {
         const double rest = std::accumulate(closed.begin() + n, closed.end(), 0.);
-        std::fill_n(closed.begin(), n, (largest_principal_stress - lame * rest) / (n * lame + 2 * shear));
+        std::fill_n(closed.begin(), n, (largest_principal_stress - lame * rest) / (n * lame + 2 * shear_modulus));
       }
     return elastic.energy(closed) + largest_principal_stress * (sum(strain) - sum(closed));
   }
@@ -342,9 +346,10 @@ namespace scree
     double scale = 0;
     for (const double value : wanted_stress)
       scale = std::max(scale, std::abs(value));
-    AssertThrow(yield(wanted_stress) <= 1e-9 * scale,
+    const double outside = yield(wanted_stress, own_strength);
+    AssertThrow(outside <= 1e-9 * scale,
                 ExcMessage("Mohr-Coulomb cannot bear the initial stress, which is outside the yield surface by " +
-                           std::to_string(yield(wanted_stress)) +
+                           std::to_string(outside) +
                            " Pa. Remedy: a K0 of at least (1 - sin phi)/(1 + sin phi), or cohesion."));
     elastic.initialise(wanted_stress, strain, stress, nullptr);
     internal_variables[0] = 0;
@@ -354,11 +359,13 @@ namespace scree
   SofteningMohrCoulomb::SofteningMohrCoulomb(const MohrCoulombParameters &parameters)
       : MohrCoulomb(parameters)
       , softening_strain(parameters.softening.strain)
-      , nonlocal_length(parameters.softening.nonlocal_length)
-      , residual_plane_friction(MohrCoulomb(parameters.residual()).plane_friction())
       , least_limit(1e-9 * parameters.cohesion) // Exponential decay ends there.
   {
     const MohrCoulombParameters last = parameters.residual();
+    plane_friction                   = MohrCoulomb(last).plane_friction; // after much strain
+    internal_quantities.insert(internal_quantities.end(),
+                               { { "softening_strain", "-" }, { "nonlocal_softening_strain", "-" } });
+    nonlocal_variable  = { parameters.softening.nonlocal_length, own_kappa, acting_kappa };
     const auto between = [](const double residual, const double peak) { return Falling{ residual, peak - residual }; };
     tangent            = between(tangent_of_angle(last), tangent_of_angle(parameters));
     dilation_tangent   = between(tangent_of_dilation(last), tangent_of_dilation(parameters));
