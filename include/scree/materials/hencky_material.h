@@ -82,7 +82,11 @@ namespace scree
   class InvariantState : public ElasticStrain<Number>
   {
   public:
-    using ElasticStrain<Number>::ElasticStrain;
+    /// @param b components of the trial b_e
+    DEAL_II_ALWAYS_INLINE inline explicit InvariantState(const Number *b)
+        : ElasticStrain<Number>(b)
+    {
+    }
 
     /// Sets the response and internal variables.
     template <typename Law>

@@ -78,8 +78,8 @@ namespace scree
     /// Smallest principal value of the deviator.
     Number least_deviator() const
     {
-      Number components[6]; // A copy: the deviator stays in registers.
-      std::copy_n(deviator, 6, components);
+      // A copy: the deviator stays in registers.
+      const Number components[] = { deviator[0], deviator[1], deviator[2], deviator[3], deviator[4], deviator[5] };
       const PrincipalNumbers<Number> values = principal_values(components);
       return simd::min<Number>(values[0], simd::min<Number>(values[1], values[2]));
     }

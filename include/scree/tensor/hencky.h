@@ -40,18 +40,19 @@ namespace scree
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
         {
-          product[i][j] = f[dim * i] * full[0][j];
-          for (unsigned int k = 1; k < dim; ++k)
-            product[i][j] += f[dim * i + k] * full[k][j];
+          product[i][j] = f[dim * i] * full[0][j] + f[dim * i + 1] * full[1][j];
+          if constexpr (dim == 3)
+            product[i][j] += f[dim * i + 2] * full[2][j];
         }
     for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
       if (dim == 2 && c == 2)
         result[c] = out_of_plane_stretch * out_of_plane_stretch * b[c];
       else
         {
-          result[c] = product[rows[c]][0] * f[dim * columns[c]];
-          for (unsigned int k = 1; k < dim; ++k)
-            result[c] += product[rows[c]][k] * f[dim * columns[c] + k];
+          const Number *of_row = product[rows[c]], *of_column = f + dim * columns[c];
+          result[c] = of_row[0] * of_column[0] + of_row[1] * of_column[1];
+          if constexpr (dim == 3)
+            result[c] += of_row[2] * of_column[2];
         }
   }
 } // namespace scree
