@@ -10,35 +10,20 @@ using namespace dealii;
 
 namespace scree
 {
-  double radians(const double degrees)
+  namespace
   {
-    return degrees * numbers::PI / 180;
-  }
+    double radians(const double degrees)
+    {
+      return degrees * numbers::PI / 180;
+    }
+
+    constexpr char of_plane[] = "direct shear or repose"; // kind of a friction angle: tau/sigma on a plane of shear
+  }                                                       // namespace
 
 
   double divided_angle(const double degrees, const double factor)
   {
     return std::atan(std::tan(radians(degrees)) / factor) * 180 / numbers::PI;
-  }
-
-
-  FrictionAngleKind friction_angle_kind(const std::string &name)
-  {
-    if (name == "triaxial")
-      return FrictionAngleKind::triaxial;
-    if (name == "plane strain")
-      return FrictionAngleKind::plane_strain;
-    AssertThrow(name == "direct shear or repose", ExcMessage("There is no kind of angle \"" + name + "\"."));
-    return FrictionAngleKind::direct_shear;
-  }
-
-
-  double sine_of_mohr_coulomb(const double angle, const double dilation_angle, const FrictionAngleKind kind)
-  {
-    if (kind != FrictionAngleKind::direct_shear)
-      return std::sin(radians(angle));
-    const double on_plane = std::tan(radians(angle)), psi = radians(dilation_angle);
-    return on_plane / (std::cos(psi) + std::sin(psi) * on_plane);
   }
 
 
@@ -120,7 +105,7 @@ namespace scree
                       angle_kind,
                       "Test that \"Friction angle\" comes from. triaxial: phi is this angle. plane strain: the same. "
                       "direct shear or repose: its tangent is tau/sigma on a plane of shear, and phi is larger.",
-                      Patterns::Selection(friction_angle_kinds));
+                      Patterns::Selection(std::string("triaxial|plane strain|") + of_plane));
     prm.add_parameter("Dilation angle",
                       dilation_angle,
                       "degrees; dilation angle psi, at most the friction angle.",
@@ -135,7 +120,9 @@ namespace scree
 
   double MohrCoulombParameters::sine() const
   {
-    return sine_of_mohr_coulomb(friction_angle, dilation_angle, friction_angle_kind(angle_kind));
+    const double angle = radians(friction_angle), psi = radians(dilation_angle);
+    return angle_kind != of_plane ? std::sin(angle)
+                                  : std::tan(angle) / (std::cos(psi) + std::sin(psi) * std::tan(angle));
   }
 
 

@@ -436,7 +436,7 @@ namespace scree
   bool JefferiesBeen::continue_to(const Trial<double> &trial, Returned<double> &root) const
   {
     // From the yield surface at the trial pressure, whose root is known.
-    constexpr unsigned int most_parts = 256;
+    constexpr unsigned int most_parts = 1 << 16;
     const Image<double> old           = image(trial.volume, trial.log_image, trial.lode_ratio);
     const double r                    = std::min(trial.log_pressure - trial.log_image, 0.99);
     const Returned<double> start{ trial.log_image + r, r, 0. };
@@ -459,40 +459,12 @@ namespace scree
   }
 
 
-  bool JefferiesBeen::search_ratio(const Trial<double> &trial, Returned<double> &root) const
-  {
-    // Where the flow rule holds, p_i is above what the hardening law gives without plastic strain, and below it at
-    // r = 1, as there is no root at the vertex.
-    const auto at = [&](const double log_pressure, const double log_ratio) {
-      return residual<Hardening::law, double>(trial, trial.X, trial.shear_strain, log_pressure, log_ratio);
-    };
-    const auto on_flow_rule = [&](const double log_ratio) {
-      return find_root([&](const double log_pressure) { return at(log_pressure, log_ratio).first; },
-                       trial.log_pressure - 40.,
-                       trial.log_pressure + 12.);
-    };
-    const auto inside = [&](const double log_ratio) {
-      const Image<double> i = image(trial.volume, trial.log_pressure - log_ratio, trial.lode_ratio);
-      return i.ratio * (1. - log_ratio) - trial.eta;
-    };
-    double low = -1.;
-    while (inside(low) <= 0. && low > -1e6)
-      low *= 2.;
-    low               = find_root(inside, low, 1.);
-    const auto above  = [&](const double log_ratio) { return at(on_flow_rule(log_ratio), log_ratio).second; };
-    root.log_ratio    = find_root(above, low, 1.);
-    root.log_pressure = on_flow_rule(root.log_ratio);
-    const auto now    = at(root.log_pressure, root.log_ratio);
-    return std::isfinite(root.log_pressure) && now.first * now.first + now.second * now.second < 1e-12;
-  }
-
-
-  bool JefferiesBeen::search_cap(const Trial<double> &trial, Returned<double> &root) const
+  JefferiesBeen::Returned<double> JefferiesBeen::on_cap(const Trial<double> &trial) const
   {
     // All is explicit in ln p_i. Below the smallest value there is no stress; that is an answer, too.
     const auto at = [&](const double log_image) {
-      const Image<double> i = image(trial.volume, log_image, trial.lode_ratio);
-      return Returned<double>{ log_image - i.limit, -i.limit, 0. };
+      const double limit = image(trial.volume, log_image, trial.lode_ratio).limit;
+      return Returned<double>{ log_image - limit, -limit, 0. };
     };
     const auto beyond = [&](const double log_image) {
       const Returned<double> cap = at(log_image);
@@ -500,32 +472,19 @@ namespace scree
           .first;
     };
     const double low = log_minimum_pressure - 4., high = std::max(trial.log_pressure, trial.log_image) + 12.;
-    root = at(beyond(low) > 0. ? find_root(beyond, low, high) : low);
-    return std::isfinite(root.log_pressure);
+    return at(beyond(low) > 0. ? find_root(beyond, low, high) : low);
   }
 
 
   JefferiesBeen::Returned<double> JefferiesBeen::search(const Trial<double> &trial, LawResponse<double> &response) const
   {
-    Returned<double> root{ trial.log_pressure, std::min(trial.log_pressure - trial.log_image, 0.9), 0. };
-    const Returned<double> start = root;
-    if (find_vertex(trial, root))
-      {
-        response.is_vertex = true;
-        return with_ratio(trial, root);
-      }
-    if (!continue_to(trial, root) && !search_ratio(trial, root))
-      {
-        response.is_unresolved = true;
-        return with_ratio(trial, start);
-      }
-    if (!is_beyond_cap(trial, root))
-      return with_ratio(trial, root);
-    Returned<double> on_cap = root;
-    if (newton_to<Hardening::cap, double>(trial, trial.X, trial.shear_strain, true, on_cap) ||
-        search_cap(trial, on_cap))
-      return with_ratio(trial, on_cap);
-    response.is_unresolved = true;
+    Returned<double> root;
+    response.is_vertex     = find_vertex(trial, root);
+    response.is_unresolved = !response.is_vertex && !continue_to(trial, root);
+    if (response.is_unresolved)
+      root = { trial.log_pressure, std::min(trial.log_pressure - trial.log_image, 0.9), 0. };
+    else if (!response.is_vertex && is_beyond_cap(trial, root))
+      root = on_cap(trial);
     return with_ratio(trial, root);
   }
 

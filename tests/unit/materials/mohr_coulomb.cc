@@ -52,7 +52,7 @@ void test_random(const std::string &name, const MohrCoulombParameters &parameter
       [&](RandomReturn &point) {
         n_elastic += !point.is_plastic;
         n_vertices += point.is_at_vertex;
-        largest_yield = std::max(largest_yield, law.yield(point.stress) / point.scale);
+        largest_yield = std::max(largest_yield, law.yield(point.stress, law.own_strength) / point.scale);
         require(point.internal[0] >= 0, name + ": plastic shear strain is negative");
         if (point.is_at_vertex)
           return;

@@ -971,11 +971,8 @@ namespace scree
     /// Of trial states on the way from the yield surface.
     bool continue_to(const Trial<double> &trial, Returned<double> &root) const;
 
-    /// In r along the flow rule.
-    bool search_ratio(const Trial<double> &trial, Returned<double> &root) const;
-
-    /// In ln p_i along the cap.
-    bool search_cap(const Trial<double> &trial, Returned<double> &root) const;
+    /// The root on the cap, in ln p_i along it.
+    Returned<double> on_cap(const Trial<double> &trial) const;
 
     /// ln p_i of the yield surface through a stress.
     double image_through(const StrainInvariants<double> &strain, const double log_pressure, const double eta) const;
