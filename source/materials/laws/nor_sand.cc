@@ -257,7 +257,7 @@ namespace scree
 
   namespace
   {
-    /// A root of `f` between `a` and `b`, to the last digit; `b` if f does not change its sign.
+    /// A root of `f` between `a` and `b`, to the last digit (@source{alefeld1995}); `b` if f does not change its sign.
     template <typename Function>
     double find_root(const Function &f, const double a, const double b)
     {
