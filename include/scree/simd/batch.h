@@ -44,7 +44,7 @@ namespace scree
     template <typename>
     constexpr bool is_pair = false;
     template <typename Half>
-    constexpr bool is_pair<Pair<Half>> = true;
+    constexpr bool is_pair<Pair<Half>> = true; ///< it is
 
     /// The vector of a number: itself, or one of a pair.
     template <typename Number>
@@ -94,12 +94,14 @@ namespace scree
     SCREE_PAIR_ASSIGNMENT(*)
 #undef SCREE_PAIR_ASSIGNMENT
 
+    /// Changes all signs.
     template <typename Half>
     DEAL_II_ALWAYS_INLINE inline auto operator-(const Pair<Half> &a)
     {
       return pair_of(-a.first, -a.second);
     }
 
+    /// Whether it does not hold, lane by lane.
     template <typename Half>
     DEAL_II_ALWAYS_INLINE inline auto operator!(const Pair<Half> &a)
     {
