@@ -280,13 +280,21 @@ namespace scree
               b[l]                     = apart(points.left_cauchy_green + offset);
               internal[l]              = apart(points.internal_variables + offset);
             }
-          Batch components[n_components], variables[n_internal + 1];
-          simd::load_records<n_components>(b, components);
-          simd::load_records<n_internal>(internal, variables);
-          for (unsigned int c = 0; c < n_components; ++c)
-            simd::half(lanes.left_cauchy_green[c], h) = components[c];
-          for (unsigned int i = 0; i < n_internal; ++i)
-            simd::half(lanes.internal_variables[i], h) = variables[i];
+          if constexpr (n_lanes == batch_size)
+            {
+              simd::load_records<n_components>(b, lanes.left_cauchy_green);
+              simd::load_records<n_internal>(internal, lanes.internal_variables);
+            }
+          else
+            {
+              Batch components[n_components], variables[n_internal + 1];
+              simd::load_records<n_components>(b, components);
+              simd::load_records<n_internal>(internal, variables);
+              for (unsigned int c = 0; c < n_components; ++c)
+                simd::half(lanes.left_cauchy_green[c], h) = components[c];
+              for (unsigned int i = 0; i < n_internal; ++i)
+                simd::half(lanes.internal_variables[i], h) = variables[i];
+            }
         }
 
       const auto list = [&](const double *numbers) {
@@ -325,10 +333,15 @@ namespace scree
                 const unsigned int lane = h * batch_size + l;
                 records[l] = apart(bits >> lane & 1 ? of_record_0 + points.offset(indices[lane]) : nothing);
               }
-            Batch batches[n_values];
-            for (unsigned int c = 0; c < n_values; ++c)
-              batches[c] = simd::half(values[c], h);
-            simd::store_records<n_values>(batches, records);
+            if constexpr (simd::n_lanes<Number> == batch_size)
+              simd::store_records<n_values>(values, records);
+            else
+              {
+                Batch batches[n_values];
+                for (unsigned int c = 0; c < n_values; ++c)
+                  batches[c] = simd::half(values[c], h);
+                simd::store_records<n_values>(batches, records);
+              }
           }
     }
 
