@@ -150,7 +150,7 @@ namespace scree
       {
         const Material<dim> &law = *body.material;
         scene.is_elastic         = scene.is_elastic && law.is_elastic();
-        scene.grain_diameter     = std::min(scene.grain_diameter, law.grain_diameter());
+        scene.grain_diameter     = std::min(scene.grain_diameter, law.grain_diameter);
         // Soil without stress gets its first one from its weight.
         const double first_pressure = 2. / 3. * body.density * scene.gravity * scene.height;
         for_each_point(body.points, [&](const auto &point) {
@@ -158,7 +158,7 @@ namespace scree
           const double mass = properties[body.layout.mass], volume = properties[body.layout.volume];
           const double at_start = mean_effective_stress(properties + body.layout.stress);
           const double pressure = at_start > 0 ? at_start : first_pressure;
-          const WaveMedium medium{ law.initial_bulk_modulus(pressure), law.shear_modulus(), body.density, pressure };
+          const WaveMedium medium{ law.initial_bulk_modulus(pressure), law.shear_modulus, body.density, pressure };
           if (medium.speed() > scene.fastest.speed())
             scene.fastest = medium;
           ++soil_points;

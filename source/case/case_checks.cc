@@ -225,7 +225,7 @@ namespace scree
     {
       constexpr double rounding = 1.005; // an angle with three digits
       for (const BodyParameters &body : parameters.bodies)
-        if (const double inside = make_material<2>(body.material)->plane_friction(); friction > rounding * inside)
+        if (const double inside = make_material<2>(body.material)->plane_friction; friction > rounding * inside)
           remarks.push_back(
               "Base stronger than the soil: " +
               entry_message(
@@ -240,7 +240,7 @@ namespace scree
     void add_unresolved_length(const BodyParameters &body, const double cell_size, std::vector<std::string> &remarks)
     {
       constexpr double rounding = 1e-9;
-      const double length       = make_material<2>(body.material)->nonlocal_variable().length;
+      const double length       = make_material<2>(body.material)->nonlocal_variable.length;
       if (length > 0 && cell_size > length / 2 * (1 + rounding))
         remarks.push_back("Unusual value: " +
                           entry_message({ body.material.path(body.name), "Nonlocal length", number_text(length) },

@@ -72,10 +72,7 @@ namespace scree
                                       const double time_step,
                                       Budget<dim> &balance) const
   {
-    if (grid.n_nodes_1d() == 2)
-      add_to<2>(field, bodies, group, time_step, balance);
-    else
-      add_to<3>(field, bodies, group, time_step, balance);
+    with_nodes_1d(grid, [&](auto n) { add_to<n>(field, bodies, group, time_step, balance); });
   }
 
   template class TurbulentFriction<2>;

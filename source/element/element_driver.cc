@@ -39,8 +39,8 @@ namespace scree
   ElementDriver::State ElementDriver::start() const
   {
     State state;
-    state.internal_variables.resize(material->internal_quantities().size());
-    if (const PlaceVariable variable = material->place_variable(); !variable.expression.empty())
+    state.internal_variables.resize(material->internal_quantities.size());
+    if (const PlaceVariable variable = material->place_variable; !variable.expression.empty())
       PlaceVariableValues<3>(variable, parameters.material.path(""))
           .set(Point<3>(), 0., state.internal_variables.data());
     std::array<double, 6> wanted{};
@@ -139,8 +139,8 @@ namespace scree
 
   void ElementDriver::write_table(std::ostream &out) const
   {
-    const std::vector<Quantity> internal_quantities = material->internal_quantities();
-    const std::vector<Quantity> derived_quantities  = material->output_quantities();
+    const std::vector<Quantity> internal_quantities = material->internal_quantities;
+    const std::vector<Quantity> derived_quantities  = material->output_quantities;
 
     out << "strain[-] volume_ratio[-] mean_pressure[Pa] deviator_stress[Pa] stress_ratio[-]";
     for (const std::string component : { "xx", "yy", "zz", "xy", "xz", "yz" })
@@ -160,11 +160,8 @@ namespace scree
           out << ' ' << component;
         for (const double variable : state.internal_variables)
           out << ' ' << variable;
-        material->output(state.left_cauchy_green.data(),
-                         state.stress.data(),
-                         state.internal_variables.data(),
-                         state.volume_ratio,
-                         derived.data());
+        material->output(
+            state.left_cauchy_green.data(), state.internal_variables.data(), state.volume_ratio, derived.data());
         for (const double value : derived)
           out << ' ' << value;
       }
@@ -197,13 +194,9 @@ namespace scree
     line("P [kPa]", last.mean_effective_stress() / 1000);
     line("J [-]", last.volume_ratio);
 
-    const std::vector<Quantity> quantities = material->output_quantities();
+    const std::vector<Quantity> quantities = material->output_quantities;
     std::vector<double> derived(quantities.size());
-    material->output(last.left_cauchy_green.data(),
-                     last.stress.data(),
-                     last.internal_variables.data(),
-                     last.volume_ratio,
-                     derived.data());
+    material->output(last.left_cauchy_green.data(), last.internal_variables.data(), last.volume_ratio, derived.data());
     for (unsigned int i = 0; i < derived.size(); ++i)
       line(quantities[i].name + " [" + quantities[i].unit + "]", derived[i]);
     out << "sub-steps " << accepted.n_substeps << ", fallbacks " << accepted.n_fallbacks << ", vertices "

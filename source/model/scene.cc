@@ -171,7 +171,7 @@ namespace scree
     for (const BodyParameters &body : parameters.bodies)
       {
         auto material = make_material<dim>(body.material);
-        const PropertyLayout<dim> layout(material->internal_quantities().size(),
+        const PropertyLayout<dim> layout(material->internal_quantities.size(),
                                          affine,
                                          water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0,
                                          parameters.probes.displacement || parameters.settling.maximum_time > 0.,
@@ -535,7 +535,7 @@ namespace scree
         *std::find_if(bodies.begin(), bodies.end(), [&](const SoilBody<dim> &one) { return one.name == inflow.body; });
     const auto &layout = body.layout;
     std::unique_ptr<PlaceVariableValues<dim>> of_place; // what the law has from the place; null: nothing
-    if (const PlaceVariable variable = body.material->place_variable(); !variable.expression.empty())
+    if (const PlaceVariable variable = body.material->place_variable; !variable.expression.empty())
       of_place = std::make_unique<PlaceVariableValues<dim>>(variable,
                                                             parameters.find_body(body.name)->material.path(body.name));
     return add_layer(
@@ -778,7 +778,7 @@ namespace scree
                           const std::vector<SoilRegion> &soil,
                           const BackgroundGrid<dim> &grid)
     {
-      const PlaceVariable variable = body.material->place_variable();
+      const PlaceVariable variable = body.material->place_variable;
       if (variable.expression.empty())
         return;
       const PlaceVariableValues<dim> values(variable, subsection);

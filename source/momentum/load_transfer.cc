@@ -108,10 +108,7 @@ namespace scree
           if (!is_near)
             continue;
           nodes.activate_cell(cell.cell);
-          if (grid.n_nodes_1d() == 2)
-            add_soil<2>(body, cell);
-          else
-            add_soil<3>(body, cell);
+          with_nodes_1d(grid, [&](auto n) { add_soil<n>(body, cell); });
         }
     nodes.add_contributions();
     nodes.update_ghosts();

@@ -124,10 +124,7 @@ namespace scree
     if (!find_potential(mixture, time_step, balance))
       return;
     find_shifts(mixture, water_field, pores, time_step);
-    if (grid.n_nodes_1d() == 2)
-      move<2>(water, balance);
-    else
-      move<3>(water, balance);
+    with_nodes_1d(grid, [&](auto n) { move<n>(water, balance); });
   }
 
 

@@ -10,7 +10,7 @@ namespace scree
     template <int dim>
     bool is_averaged(const SoilBody<dim> &body)
     {
-      return body.material->nonlocal_variable().length > 0;
+      return body.material->nonlocal_variable.length > 0;
     }
   } // namespace
 

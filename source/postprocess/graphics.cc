@@ -108,7 +108,7 @@ namespace scree
           , first_row(names.size())
       {
         for (const auto &body : bodies)
-          for (const auto &fields : { body.material->internal_quantities(), body.material->output_quantities() })
+          for (const auto &fields : { body.material->internal_quantities, body.material->output_quantities })
             for (const Quantity &field : fields)
               if (std::find(names.begin() + first_row, names.end(), label_of(field)) == names.end())
                 output.add({ field.name, field.unit });
@@ -117,8 +117,8 @@ namespace scree
       /// Prepares put() for the points of a body.
       void begin(const SoilBody<dim> &body)
       {
-        internal = rows_of(body.material->internal_quantities());
-        derived  = rows_of(body.material->output_quantities());
+        internal = rows_of(body.material->internal_quantities);
+        derived  = rows_of(body.material->output_quantities);
         values.resize(derived.size());
       }
 
@@ -126,7 +126,6 @@ namespace scree
       {
         const double *internals = properties + body.layout.internal_variables;
         body.material->output(properties + body.layout.left_cauchy_green,
-                              properties + body.layout.stress,
                               internals,
                               properties[body.layout.volume] * body.density / properties[body.layout.mass],
                               values.data());

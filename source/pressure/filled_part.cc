@@ -90,10 +90,7 @@ namespace scree
   {
     const unsigned int begin = all_integrals.size();
     all_integrals.resize(begin + (dim * n_vertices + 1) * n_rows, NodeRow{});
-    if (grid.n_nodes_1d() == 2)
-      integrate<2>(part, open, &all_integrals[begin]);
-    else
-      integrate<3>(part, open, &all_integrals[begin]);
+    with_nodes_1d(grid, [&](auto n) { integrate<n>(part, open, &all_integrals[begin]); });
     return begin;
   }
 
@@ -191,10 +188,7 @@ namespace scree
     for (SimplexCorner<dim> &corner : faces[0])
       corner.side = interpolate<dim>(depths, corner.place);
     for (const SimplexFace<dim> &wet : open_part(std::move(faces), linear_crossing<dim>))
-      if (grid.n_nodes_1d() == 2)
-        integrate_face<2>(wet, normal, open, &all_integrals[integrals], hats);
-      else
-        integrate_face<3>(wet, normal, open, &all_integrals[integrals], hats);
+      with_nodes_1d(grid, [&](auto n) { integrate_face<n>(wet, normal, open, &all_integrals[integrals], hats); });
     return hats;
   }
 

@@ -182,20 +182,14 @@ namespace scree
   template <int dim>
   void PressurePair<dim>::add_divergence(const FlowField<dim> &flow, VertexVector &sums) const
   {
-    if (grid.n_nodes_1d() == 2)
-      add_divergence_of_cells<2>(flow, sums);
-    else
-      add_divergence_of_cells<3>(flow, sums);
+    with_nodes_1d(grid, [&](auto n) { add_divergence_of_cells<n>(flow, sums); });
   }
 
 
   template <int dim>
   void PressurePair<dim>::add_force(const VertexVector &pressure, FlowField<dim> &forces) const
   {
-    if (grid.n_nodes_1d() == 2)
-      add_force_of_cells<2>(pressure, forces);
-    else
-      add_force_of_cells<3>(pressure, forces);
+    with_nodes_1d(grid, [&](auto n) { add_force_of_cells<n>(pressure, forces); });
   }
 
 

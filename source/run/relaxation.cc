@@ -110,7 +110,7 @@ namespace scree
       double largest = 0.;
       for (const auto &body : bodies)
         {
-          const auto quantities = body.material->internal_quantities();
+          const auto quantities = body.material->internal_quantities;
           for (unsigned int q = 0; q < quantities.size(); ++q)
             if (quantities[q].name == "plastic_shear_strain")
               for_each_point(body.points, [&](const auto &point) {

@@ -197,7 +197,7 @@ namespace scree
       }
     catch (const PointFault &fault)
       {
-        AssertThrow(false, ExcMessage(fault.text(number_text(clock.time()))));
+        AssertThrow(false, ExcMessage(fault.name + ", t = " + number_text(clock.time()) + " s: " + fault.what()));
       }
     place_points(time_step, step.speeds);
 

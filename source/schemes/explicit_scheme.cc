@@ -13,7 +13,8 @@ namespace scree
                                     const unsigned int number,
                                     WallGaps<dim> &wall_gaps,
                                     TimerOutput &timer)
-      : soil(model.grid, model.transfer, model.stabilisation, model.bodies, model.loads, number)
+      : number(number)
+      , soil(model.grid, model.transfer, model.stabilisation, model.bodies, model.loads, number)
       , closed_faces(model.constraints[number]->faces_closed_to_soil())
       , wall_gaps(wall_gaps)
       , momentum(*model.constraints[number], wall_gaps, model.forces)
@@ -55,13 +56,11 @@ namespace scree
   {
     {
       const TimedPart part(timer, TimerSection::points_to_grid);
-      unsigned int number = 0;
       for (Group &group : groups)
         {
           group.soil.add_loads(0.); // Leapfrog: loads are those of the start of the step.
           for (const auto &friction : turbulent_frictions)
-            friction.add_to(group.soil.field, bodies, number, time_step, budget);
-          ++number;
+            friction.add_to(group.soil.field, bodies, group.number, time_step, budget);
         }
     }
     {
@@ -110,11 +109,10 @@ namespace scree
     if (!meets_surfaces)
       return;
     const TimedPart part(timer, TimerSection::bed);
-    unsigned int number = 0;
     for (Group &group : groups)
       {
         GroundRows<dim> &rows =
-            group.contact.find_rows(bodies, number++, group.soil.field, forces.mass_scaling(), time_step);
+            group.contact.find_rows(bodies, group.number, group.soil.field, forces.mass_scaling(), time_step);
         group.tractions.solve(rows, group.soil.field, time_step, budget);
         group.contact.count_rows(group.tractions, time_step, budget);
       }
@@ -137,16 +135,12 @@ namespace scree
   std::vector<FacetTractions<dim>> ExplicitScheme<dim>::ground_tractions() const
   {
     std::vector<FacetTractions<dim>> all;
-    unsigned int number = 0;
     for (const Group &group : groups)
-      {
-        for (FacetTractions<dim> &one : group.contact.tractions())
-          {
-            one.group = number;
-            all.push_back(one);
-          }
-        ++number;
-      }
+      for (FacetTractions<dim> one : group.contact.tractions())
+        {
+          one.group = group.number;
+          all.push_back(one);
+        }
     return all;
   }
 
@@ -154,15 +148,13 @@ namespace scree
   template <int dim>
   void ExplicitScheme<dim>::set_ground_tractions(const std::vector<FacetTractions<dim>> &tractions)
   {
-    unsigned int number = 0;
     for (Group &group : groups)
       {
         std::vector<FacetTractions<dim>> of_group;
-        std::copy_if(tractions.begin(), tractions.end(), std::back_inserter(of_group), [number](const auto &one) {
-          return one.group == number;
+        std::copy_if(tractions.begin(), tractions.end(), std::back_inserter(of_group), [&](const auto &one) {
+          return one.group == group.number;
         });
         group.contact.set_tractions(of_group);
-        ++number;
       }
   }
 

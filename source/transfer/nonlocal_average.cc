@@ -48,7 +48,7 @@ namespace scree
   template <int dim>
   void NonlocalAverage<dim>::update(SoilBody<dim> &body)
   {
-    const NonlocalVariable variable = body.material->nonlocal_variable();
+    const NonlocalVariable variable = body.material->nonlocal_variable;
     constexpr unsigned int first    = PropertyLayout<dim>::internal_variables;
     add_points(body.points, first + variable.own);
     smooth(body.points, variable.length / grid.cell_size());
@@ -65,35 +65,17 @@ namespace scree
 
 
   template <int dim>
-  typename NonlocalAverage<dim>::Weights NonlocalAverage<dim>::weights_at(const Point<dim> &place)
-  {
-    Weights weights;
-    for (unsigned int corner = 0; corner < n_corners; ++corner)
-      {
-        weights[corner] = 1.;
-        for (unsigned int d = 0; d < dim; ++d)
-          weights[corner] *= corner >> d & 1 ? place[d] : 1. - place[d];
-      }
-    return weights;
-  }
-
-
-  template <int dim>
   void NonlocalAverage<dim>::add_points(const PointSet<dim> &points, const unsigned int offset)
   {
     sums.clear();
     for (const auto &cell : points.cells())
       {
-        Weights of_value{}, of_mass{};
+        VertexRow<dim> of_value{}, of_mass{};
         for_each_point(cell, [&](const auto &point) {
-          const double point_mass  = point.properties[PropertyLayout<dim>::mass];
-          const double point_value = point_mass * point.properties[offset];
-          const Weights weights    = weights_at(point.reference_location);
-          for (unsigned int corner = 0; corner < n_corners; ++corner)
-            {
-              of_value[corner] += weights[corner] * point_value;
-              of_mass[corner] += weights[corner] * point_mass;
-            }
+          const VertexRow<dim> masses =
+              vertex_values(point.reference_location) * point.properties[PropertyLayout<dim>::mass];
+          of_value += masses * point.properties[offset];
+          of_mass += masses;
         });
         sums.activate_cell(cell.cell);
         const unsigned int *nodes = corners.nodes(cell.cell);
@@ -152,17 +134,17 @@ namespace scree
     for (const auto &cell : points.cells())
       {
         const unsigned int *nodes = corners.nodes(cell.cell);
-        Weights means;
+        VertexRow<dim> means;
         for (unsigned int corner = 0; corner < n_corners; ++corner)
           {
             const double *sum = sums[nodes[corner]];
             means[corner]     = sum[mass] > 0. ? sum[value] / sum[mass] : 0.;
           }
         for_each_point(cell, [&](const auto &point) {
-          const Weights weights = weights_at(point.reference_location);
-          double mean           = 0.;
+          const VertexRow<dim> parts = vertex_values(point.reference_location) * means;
+          double mean                = 0.;
           for (unsigned int corner = 0; corner < n_corners; ++corner)
-            mean += weights[corner] * means[corner];
+            mean += parts[corner];
           point.properties[to] = (1. - over) * point.properties[from] + over * mean;
         });
       }

@@ -14,7 +14,7 @@ namespace scree
   using namespace dealii;
 
   template <int dim>
-  template <int n, TransferMethod method, bool is_damped>
+  template <int n, bool is_affine, bool is_damped>
   void Transfer<dim>::add_points(const SoilBody<dim> &body, NodalField<dim> &field) const
   {
     const auto &layout = body.layout;
@@ -36,12 +36,12 @@ namespace scree
                     damped[c] = stress[c] + properties[layout.damping + c];
                   stress = damped.data();
                 }
-              sums.template add<method>(shape,
-                                        properties[layout.mass],
-                                        properties + layout.velocity,
-                                        properties + layout.affine,
-                                        properties[layout.volume],
-                                        matrix_of_components<dim>(stress));
+              sums.template add<is_affine>(shape,
+                                           properties[layout.mass],
+                                           properties + layout.velocity,
+                                           properties + layout.affine,
+                                           properties[layout.volume],
+                                           matrix_of_components<dim>(stress));
             });
         field.activate_cell(cell.cell);
         sums.scatter(grid.nodes(cell.cell), field);
@@ -52,64 +52,13 @@ namespace scree
   template <int dim>
   void Transfer<dim>::to_grid(const SoilBody<dim> &body, NodalField<dim> &field) const
   {
-    const auto choose_damping = [&](auto n, auto carried) {
-      return body.layout.has_damping ? add_points<n, carried, true>(body, field)
-                                     : add_points<n, carried, false>(body, field);
+    const auto add = [&](auto n, auto is_affine) {
+      return body.layout.has_damping ? add_points<n, is_affine, true>(body, field)
+                                     : add_points<n, is_affine, false>(body, field);
     };
-    const auto dispatch = [&](auto n) {
-      if (carries_affine(method)) // TPIC and AFLIP differ on the way back only.
-        return choose_damping(n, std::integral_constant<TransferMethod, TransferMethod::tpic>());
-      return choose_damping(n, std::integral_constant<TransferMethod, TransferMethod::flip>());
-    };
-    if (grid.n_nodes_1d() == 2)
-      dispatch(std::integral_constant<int, 2>());
-    else
-      dispatch(std::integral_constant<int, 3>());
+    with_nodes_1d(
+        grid, [&](auto n) { return carries_affine(method) ? add(n, std::true_type()) : add(n, std::false_type()); });
   }
-
-
-  namespace
-  {
-    /// Throws PointFault of the point of a block that is deformed most, if it is too much for a step.
-    template <int dim>
-    void throw_fault(const SoilBody<dim> &body,
-                     const CellPoints<dim> &cell,
-                     const unsigned int n_points,
-                     const BlockMotion<dim> &motion,
-                     const double time_step)
-    {
-      unsigned int worst = 0;
-      double largest = 0., of_worst = 1.; // |dF - I|, det dF
-      for (unsigned int p = 0; p < n_points; ++p)
-        {
-          Tensor<2, dim> increment;
-          double change = 0.;
-          for (unsigned int c = 0; c < dim * dim; ++c)
-            {
-              increment[c / dim][c % dim] = motion.deformation_increment[c * motion.pitch + p];
-              const double part           = std::abs(increment[c / dim][c % dim] - (c % (dim + 1) == 0 ? 1. : 0.));
-              change                      = part <= change ? change : part; // NaN counts
-            }
-          if (!(change <= largest))
-            {
-              worst    = p;
-              largest  = change;
-              of_worst = determinant(increment);
-            }
-        }
-      if (of_worst > 0. && largest < 1.)
-        return;
-      const auto id = body.points.handler().get_property_pool().get_id(cell.slots[worst]);
-      throw PointFault(body.name + ", point " + std::to_string(id) + " at (" + number_text(cell.location_of(worst)) +
-                           ") m",
-                       "it cannot follow its deformation in a time step of " + number_text(time_step) +
-                           " s: largest |dF - I| " + number_text(largest) + ", det dF " + number_text(of_worst) +
-                           ", V/V_0 " + number_text(motion.volume_ratio[worst]) +
-                           ". Try a smaller 'Courant number', 'Advection number' or 'Maximum time step' in subsection "
-                           "Time step; if that does not help, look at the picture before: the motion is unstable "
-                           "there.");
-    }
-  } // namespace
 
 
   template <int dim>
@@ -236,9 +185,11 @@ namespace scree
       {
         body.material->update(points, motion.material_motion(time_step, body.grain_density), report);
       }
-    catch (const ExceptionBase &)
+    catch (PointFault &fault)
       {
-        throw_fault(body, cell, n_points, motion, time_step);
+        const auto id = body.points.handler().get_property_pool().get_id(cell.slots[fault.point]);
+        fault.name =
+            body.name + ", point " + std::to_string(id) + " at (" + number_text(cell.location_of(fault.point)) + ") m";
         throw;
       }
     if (body.layout.has_damping)
@@ -252,20 +203,10 @@ namespace scree
                                         const double time_step,
                                         const double damping_time)
   {
-    const auto dispatch = [&](auto n) {
-      switch (method)
-        {
-        case TransferMethod::flip:
-          return move_points<n, TransferMethod::flip>(body, field, time_step, damping_time);
-        case TransferMethod::aflip:
-          return move_points<n, TransferMethod::aflip>(body, field, time_step, damping_time);
-        default:
-          return move_points<n, TransferMethod::tpic>(body, field, time_step, damping_time);
-        }
-    };
-    if (grid.n_nodes_1d() == 2)
-      return dispatch(std::integral_constant<int, 2>());
-    return dispatch(std::integral_constant<int, 3>());
+    return with_nodes_1d(grid, [&](auto n) {
+      return with_method(
+          method, [&](auto of_points) { return move_points<n, of_points>(body, field, time_step, damping_time); });
+    });
   }
 
   template class Transfer<2>;

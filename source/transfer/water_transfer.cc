@@ -95,7 +95,7 @@ namespace scree
 
 
   template <int dim>
-  template <int n, TransferMethod method>
+  template <int n, bool is_affine>
   void WaterTransfer<dim>::add_water(const WaterPhase<dim> &water,
                                      Mixture<dim> &mixture,
                                      NodalField<dim> &field,
@@ -133,7 +133,7 @@ namespace scree
         for_each_record_with_shape<n>(cell, cell.stride, open, width, [&](const auto &point, const auto &shape) {
           const double *properties = point.properties, *affine = properties + layout.affine;
           const double mass = properties[layout.mass], volume = properties[layout.volume];
-          sums.template add_momentum<method>(shape, mass, properties + layout.velocity, affine);
+          sums.template add_momentum<is_affine>(shape, mass, properties + layout.velocity, affine);
           const Pores about = pores_at(point, shape.x);
           const double more = about.inverse_porosity - 1.;
           const double bulk = about.inverse_porosity * volume;
@@ -148,7 +148,7 @@ namespace scree
               add_row_sums(shape, volume * more * (2. + more), inertia);
               add_row_sums(shape, bulk * about.resistance, drag);
               add_row_sums(shape, bulk * about.inertial, inertial);
-              excess_sums.template add_momentum<method>(shape, mass * more, properties + layout.velocity, affine);
+              excess_sums.template add_momentum<is_affine>(shape, mass * more, properties + layout.velocity, affine);
             }
 
           std::array<double, dim> rise;
@@ -262,10 +262,7 @@ namespace scree
   template <int dim>
   void WaterTransfer<dim>::soil_to_grid(const SoilBody<dim> &soil, Mixture<dim> &mixture) const
   {
-    if (grid.n_nodes_1d() == 2)
-      add_soil<2>(soil, mixture);
-    else
-      add_soil<3>(soil, mixture);
+    with_nodes_1d(grid, [&](auto n) { add_soil<n>(soil, mixture); });
   }
 
 
@@ -276,20 +273,12 @@ namespace scree
                                    NodalField<dim> &excess,
                                    PoreField<dim> &pores) const
   {
-    const auto dispatch = [&](auto n) {
-      switch (method)
-        {
-        case TransferMethod::tpic:
-        case TransferMethod::aflip: // They differ on the way back only.
-          return add_water<n, TransferMethod::tpic>(water, mixture, field, excess, pores);
-        default:
-          return add_water<n, TransferMethod::flip>(water, mixture, field, excess, pores);
-        }
-    };
-    if (grid.n_nodes_1d() == 2)
-      dispatch(std::integral_constant<int, 2>());
-    else
-      dispatch(std::integral_constant<int, 3>());
+    with_nodes_1d(grid, [&](auto n) {
+      if (carries_affine(method))
+        add_water<n, true>(water, mixture, field, excess, pores);
+      else
+        add_water<n, false>(water, mixture, field, excess, pores);
+    });
   }
 
 
@@ -300,20 +289,10 @@ namespace scree
                                        const PressureOfCell<dim> &pressure,
                                        const double time_step) const
   {
-    const auto dispatch = [&](auto n) {
-      switch (method)
-        {
-        case TransferMethod::flip:
-          return move_water<n, TransferMethod::flip>(water, nodes, mixture, pressure, time_step);
-        case TransferMethod::aflip:
-          return move_water<n, TransferMethod::aflip>(water, nodes, mixture, pressure, time_step);
-        default:
-          return move_water<n, TransferMethod::tpic>(water, nodes, mixture, pressure, time_step);
-        }
-    };
-    if (grid.n_nodes_1d() == 2)
-      return dispatch(std::integral_constant<int, 2>());
-    return dispatch(std::integral_constant<int, 3>());
+    return with_nodes_1d(grid, [&](auto n) {
+      return with_method(
+          method, [&](auto of_points) { return move_water<n, of_points>(water, nodes, mixture, pressure, time_step); });
+    });
   }
 
   template class WaterTransfer<2>;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/tensor/vector.h>
 #include <scree/viscosity/viscous_step.h>
 
 namespace scree
@@ -91,10 +92,7 @@ namespace scree
   template <int dim>
   void ViscousForce<dim>::add(const WaterPhase<dim> &water, const NodalField<dim> &motion, NodalField<dim> &field) const
   {
-    if (grid.n_nodes_1d() == 2)
-      add_points<2>(water, motion, field);
-    else
-      add_points<3>(water, motion, field);
+    with_nodes_1d(grid, [&](auto n) { add_points<n>(water, motion, field); });
   }
 
 
@@ -105,15 +103,10 @@ namespace scree
   namespace
   {
     template <int dim>
-    Tensor<1, dim> part(const NodalField<dim> &field, const unsigned int node, const unsigned int first)
-    {
-      return Tensor<1, dim>(make_array_view(field[node] + first, field[node] + first + dim));
-    }
-
-    template <int dim>
     SoilAndWater<dim> velocities(const MixtureNodes<dim> &nodes, const unsigned int node)
     {
-      return { part(nodes.soil, node, NodalField<dim>::velocity), part(nodes.water, node, NodalField<dim>::velocity) };
+      return { vector_of<dim>(nodes.soil[node] + NodalField<dim>::velocity),
+               vector_of<dim>(nodes.water[node] + NodalField<dim>::velocity) };
     }
 
     template <int dim>
@@ -192,7 +185,7 @@ namespace scree
   template <int dim>
   SoilAndWater<dim> ViscousStep<dim>::impulses_at(const unsigned int node) const
   {
-    return { Tensor<1, dim>(), part(*impulses, node, NodalField<dim>::force) };
+    return { Tensor<1, dim>(), vector_of<dim>((*impulses)[node] + NodalField<dim>::force) };
   }
 
 
@@ -288,9 +281,9 @@ namespace scree
   {
     for (const unsigned int node : active)
       {
-        const Tensor<1, dim> impulse      = part(*impulses, node, NodalField<dim>::force);
-        const Tensor<1, dim> after        = part(nodes.water, node, NodalField<dim>::velocity);
-        const Tensor<1, dim> water_change = part(nodes.water, node, NodalField<dim>::velocity_change);
+        const Tensor<1, dim> impulse      = vector_of<dim>((*impulses)[node] + NodalField<dim>::force);
+        const Tensor<1, dim> after        = vector_of<dim>(nodes.water[node] + NodalField<dim>::velocity);
+        const Tensor<1, dim> water_change = vector_of<dim>(nodes.water[node] + NodalField<dim>::velocity_change);
         // The work of an impulse is its product with the mean velocity.
         balance.viscous_dissipation -= impulse * (after - 0.5 * water_change);
       }

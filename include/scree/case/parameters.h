@@ -51,7 +51,7 @@ namespace scree
     /// Volume of pores over total volume, as the entry or the law says.
     double initial_porosity() const
     {
-      return seeding.initial_porosity < 0 ? make_material<2>(material)->initial_porosity() : seeding.initial_porosity;
+      return seeding.initial_porosity < 0 ? make_material<2>(material)->initial_porosity : seeding.initial_porosity;
     }
 
     /// Density of the dry body, kg/m^3: grains times (1 - porosity).

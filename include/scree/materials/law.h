@@ -4,7 +4,6 @@
 #define scree_materials_law_h
 
 #include <scree/materials/material.h>
-#include <scree/simd/pair.h>
 #include <scree/tensor/principal.h>
 
 namespace scree
@@ -48,6 +47,21 @@ namespace scree
   };
 
 
+  /// Invariants of a principal strain, which becomes its deviator.
+  template <typename Number>
+  DEAL_II_ALWAYS_INLINE inline StrainInvariants<Number> take_invariants(PrincipalNumbers<Number> &strain)
+  {
+    const Number volume = strain[0] + strain[1] + strain[2];
+    Number square       = simd::broadcast<Number>(0.);
+    for (Number &value : strain)
+      {
+        value -= volume * (1. / 3.);
+        square += value * value;
+      }
+    return { volume, square, strain[0] * strain[1] * strain[2] };
+  }
+
+
   /// What a law in invariants makes of points: strain and stress along the deviator of the trial strain.
   template <typename Number>
   struct InvariantResponse : LawResponse<Number>
@@ -61,8 +75,8 @@ namespace scree
 
   /// Base class of laws, with what a law may leave out. A law is a class with this base in a file of its own, together
   /// with its entries (LawEntries); HenckyMaterial makes a Material of it and inlines it. It also has
-  ///   n_internal_variables, internal_quantities()                       number of internal variables, and what they
-  ///   are shear_modulus(), bulk_modulus(pressure)                           Pa; tangent at a mean compressive stress
+  ///   n_internal_variables                                              their number; a law without any is elastic
+  ///   bulk_modulus(pressure)                                            Pa; tangent at a mean compressive stress
   ///   energy(strain)                                                    J per m^3 of reference volume
   ///   initialise(wanted stress, strain, stress, internal variables)     see Material::initialise()
   ///   respond(step, strain, internal variables, stress)                 from trial strain to strain and stress
@@ -73,54 +87,14 @@ namespace scree
   /// strain's deviator, has instead, with `in_invariants`,
   ///   respond(step, StrainInvariants, internal variables)               an InvariantResponse
   /// which saves the principal axes in three dimensions.
-  class ConstitutiveLaw
+  class ConstitutiveLaw : public LawProperties
   {
   public:
-    static constexpr bool is_elastic     = false; ///< whether the law has no plastic strain
     static constexpr bool in_invariants  = false; ///< see above
     static constexpr bool leaves_returns = false; ///< whether points that return are gathered, see LawStep
 
     /// Largest component of dF - I in one return map: backward Euler has several roots if it is larger.
-    double substep_strain() const
-    {
-      return std::numeric_limits<double>::infinity();
-    }
-
-    /// See Material::initial_porosity().
-    double initial_porosity() const
-    {
-      return 0;
-    }
-
-    /// See Material::plane_friction().
-    double plane_friction() const
-    {
-      return std::numeric_limits<double>::infinity();
-    }
-
-    /// See Material::grain_diameter().
-    double grain_diameter() const
-    {
-      return 0;
-    }
-
-    /// See Material::nonlocal_variable().
-    NonlocalVariable nonlocal_variable() const
-    {
-      return {};
-    }
-
-    /// See Material::place_variable().
-    PlaceVariable place_variable() const
-    {
-      return {};
-    }
-
-    /// See Material::output_quantities().
-    static std::vector<Quantity> output_quantities()
-    {
-      return {};
-    }
+    double substep_strain = std::numeric_limits<double>::infinity();
 
     /// See Material::output().
     void output(const PrincipalValues &, const double *, const double, double *) const
@@ -139,18 +113,9 @@ namespace scree
   {
     if constexpr (Law::in_invariants)
       {
-        const Number volume               = strain[0] + strain[1] + strain[2];
         PrincipalNumbers<Number> deviator = strain;
-        Number square                     = simd::broadcast<Number>(0.);
-        for (Number &value : deviator)
-          {
-            value -= volume * (1. / 3.);
-            square += value * value;
-          }
         const InvariantResponse<Number> found =
-            law.respond(step,
-                        StrainInvariants<Number>{ volume, square, deviator[0] * deviator[1] * deviator[2] },
-                        internal_variables);
+            law.respond(step, take_invariants<Number>(deviator), internal_variables);
         for (unsigned int i = 0; i < 3; ++i)
           {
             const Number returned = found.volume_strain * (1. / 3.) + found.deviator_factor * deviator[i];

@@ -8,7 +8,10 @@
 #include <deal.II/base/tensor.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -30,7 +33,7 @@ namespace scree
     std::size_t stride         = 0;       ///< doubles from one record to the next
     double *left_cauchy_green  = nullptr; ///< Elastic b_e, n_symmetric_components<dim>
     double *stress             = nullptr; ///< Cauchy stress, Pa, tension positive, n_symmetric_components<dim>
-    double *internal_variables = nullptr; ///< As named by Material::internal_quantities()
+    double *internal_variables = nullptr; ///< As named by LawProperties::internal_quantities
     const unsigned int *slots  = nullptr; ///< Records of the points; null: one behind the other
 
     /// From record 0 to the one of point `p`, doubles.
@@ -62,6 +65,21 @@ namespace scree
         increment[c / dim][c % dim] = deformation_increment[c * pitch + p];
       return increment;
     }
+  };
+
+  /// A point that cannot follow its motion over a step.
+  struct PointFault : std::runtime_error
+  {
+    /// @param point its number in MaterialPoints
+    /// @param what what is wrong, and what to try
+    PointFault(const unsigned int point, const std::string &what)
+        : std::runtime_error(what)
+        , point(point)
+    {
+    }
+
+    unsigned int point; ///< its number in MaterialPoints
+    std::string name;   ///< body, number and place, as far as they are known
   };
 
   /// What came out of a step's updates. The reports of cells and ranks add up.
@@ -113,22 +131,46 @@ namespace scree
     std::string remedy;                                            ///< what helps beyond that
   };
 
+  /// What a law says of itself, whatever the state of a point. A law sets in its constructor what differs.
+  struct LawProperties
+  {
+    double shear_modulus    = 0;                                       ///< Pa
+    double initial_porosity = 0;                                       ///< if the law fixes it (Nor-Sand: 1 - 1/v_0)
+    double plane_friction   = std::numeric_limits<double>::infinity(); ///< tau/sigma on a plane that shears steadily;
+                                                                       ///< infinite without yield or with cohesion
+    double grain_diameter = 0;                 ///< of a friction that grows with the rate of shear, m; 0: it does not
+    NonlocalVariable nonlocal_variable;        ///< what is averaged over space
+    PlaceVariable place_variable;              ///< what each point has from its place, before initialise()
+    std::vector<Quantity> internal_quantities; ///< a point's internal variables in storage order
+    std::vector<Quantity> output_quantities;   ///< derived fields, in the order of Material::output()
+
+    /// Whether the law has no plastic strain, as it has no internal variables.
+    bool is_elastic() const
+    {
+      return internal_quantities.empty();
+    }
+  };
+
+
   /// A constitutive law of a point in finite strain: logarithmic elastic strain, Kirchhoff stress tau = J sigma.
   ///
   /// One virtual call serves the points of several cells. A law holds no state of points, so threads may share it.
   template <int dim>
-  class Material
+  class Material : public LawProperties
   {
   public:
+    /// Copies the properties.
+    explicit Material(const LawProperties &properties)
+        : LawProperties(properties)
+    {
+    }
+
     virtual ~Material() = default;
 
-    /// Advance stress, elastic state and internal variables of the points over a step. Throws dealii::ExcMessage if an
+    /// Advance stress, elastic state and internal variables of the points over a step. Throws PointFault if an
     /// increment is not a number, turns a point inside out or is beyond 1000 sub-steps.
     virtual void
     update(const MaterialPoints<dim> &points, const MaterialMotion<dim> &motion, UpdateReport &report) const = 0;
-
-    /// Shear modulus, Pa.
-    virtual double shear_modulus() const = 0;
 
     /// Tangent bulk modulus, Pa, at the mean compressive stress `pressure`, Pa.
     virtual double initial_bulk_modulus(const double pressure) const = 0;
@@ -141,7 +183,7 @@ namespace scree
     /// @param density at J = 1, kg/m^3
     double wave_speed(const double bulk_modulus, const double compression, const double density) const
     {
-      return std::sqrt((bulk_modulus + 4. / 3. * shear_modulus() + compression) / density);
+      return std::sqrt((bulk_modulus + 4. / 3. * shear_modulus + compression) / density);
     }
 
     /// Stored energy, J per m^3 of reference volume, of the state `left_cauchy_green`.
@@ -151,7 +193,7 @@ namespace scree
     virtual Batch elastic_energies(const Batch *left_cauchy_green) const = 0;
 
     /// State of one point that has the Cauchy stress `wanted_stress` (Pa, components) at J = 1: fills
-    /// `left_cauchy_green`, `stress` and `internal_variables`, of which that of place_variable() is set before.
+    /// `left_cauchy_green`, `stress` and `internal_variables`, of which that of place_variable is set before.
     /// `stress` may be `wanted_stress`, and equals it but where the law holds it for separated (no stress). Throws
     /// dealii::ExcMessage if the law cannot carry the stress.
     virtual void initialise(const double *wanted_stress,
@@ -159,48 +201,11 @@ namespace scree
                             double *stress,
                             double *internal_variables) const = 0;
 
-    /// Porosity at the start if the law fixes it (Nor-Sand: 1 - 1/v_0), else 0.
-    virtual double initial_porosity() const = 0;
-
-    /// tau/sigma on a plane that shears steadily; infinite if the law does not yield or has cohesion.
-    virtual double plane_friction() const
-    {
-      return std::numeric_limits<double>::infinity();
-    }
-
-    /// Grain diameter of a friction that grows with the rate of shear, m; 0: it does not.
-    virtual double grain_diameter() const
-    {
-      return 0;
-    }
-
-    /// What is averaged over space; its length is 0 if nothing is.
-    virtual NonlocalVariable nonlocal_variable() const
-    {
-      return {};
-    }
-
-    /// Whether the law has no plastic strain.
-    virtual bool is_elastic() const = 0;
-
-    /// A point's internal variables in storage order.
-    virtual std::vector<Quantity> internal_quantities() const = 0;
-
-    /// Derived fields for output, in the order of output().
-    virtual std::vector<Quantity> output_quantities() const = 0;
-
-    /// Derived fields of one point at J = `volume_ratio`; `values` has the size of output_quantities().
+    /// Derived fields of one point at J = `volume_ratio`; `values` has the size of output_quantities.
     virtual void output(const double *left_cauchy_green,
-                        const double *stress,
                         const double *internal_variables,
                         const double volume_ratio,
                         double *values) const = 0;
-
-    /// What each point has from its place, before initialise(); its expression is empty if there is nothing.
-    virtual PlaceVariable place_variable() const
-    {
-      return {};
-    }
   };
 } // namespace scree
 

@@ -244,13 +244,23 @@ namespace scree
     boost::signals2::scoped_connection after_repartition;
   };
 
+  /// Calls `act` with the number of a cell's nodes along an axis, 2 or 3, as a constant.
+  template <int dim, typename Act>
+  auto with_nodes_1d(const BackgroundGrid<dim> &grid, const Act &act)
+  {
+    if (grid.n_nodes_1d() == 2)
+      return act(std::integral_constant<int, 2>());
+    return act(std::integral_constant<int, 3>());
+  }
+
   /// Calls `visit(node, shape value)` for the nodes that act at the place `x` (in cell widths from the lower corner) of
   /// a cell of this rank. For output and the like: the kernels of the transfer work on rows of nodes.
   template <int dim, typename Visit>
   void
   visit_nodes(const BackgroundGrid<dim> &grid, const unsigned int cell, const dealii::Point<dim> &x, const Visit &visit)
   {
-    const auto visit_basis = [&](const auto &basis, const unsigned int n) {
+    with_nodes_1d(grid, [&](auto n) {
+      const CellBasis<dim, n> basis(x, grid.open_knots(cell));
       for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
         {
           double value = 1.;
@@ -258,11 +268,7 @@ namespace scree
             value *= basis.value[a][rest % n];
           visit(grid.nodes(cell)[i], value);
         }
-    };
-    if (grid.n_nodes_1d() == 2)
-      visit_basis(CellBasis<dim, 2>(x, grid.open_knots(cell)), 2);
-    else
-      visit_basis(CellBasis<dim, 3>(x, grid.open_knots(cell)), 3);
+    });
   }
 } // namespace scree
 

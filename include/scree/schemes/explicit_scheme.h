@@ -90,10 +90,6 @@ namespace scree
       return sets;
     }
     const NodalField<dim> &soil_field() override;
-    std::unique_ptr<WaterView<dim>> water_view() const override
-    {
-      return nullptr;
-    }
 
   private:
     /// Bodies that stick to each other.
@@ -101,6 +97,7 @@ namespace scree
     {
       Group(const Model<dim> &model, const unsigned int number, WallGaps<dim> &wall_gaps, dealii::TimerOutput &timer);
 
+      const unsigned int number; ///< of the group
       SolidPhase<dim> soil;
       const std::uint8_t closed_faces; ///< of the box, to the soil
       WallGaps<dim> &wall_gaps;

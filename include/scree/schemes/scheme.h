@@ -74,7 +74,10 @@ namespace scree
     virtual const NodalField<dim> &soil_field() = 0;
 
     /// What pictures show of the water; null in a dry scene.
-    virtual std::unique_ptr<WaterView<dim>> water_view() const = 0;
+    virtual std::unique_ptr<WaterView<dim>> water_view() const
+    {
+      return nullptr;
+    }
 
     /// Keeps place and pressure of the water from the next step on, or lets it flow.
     virtual void hold_water(const bool)

@@ -28,28 +28,105 @@ namespace scree
   /// As many numbers, each in its lane: a compiler vector, which has the operators of double. A lane's result does not
   /// depend on what is in the others. (Debian builds deal.II's VectorizedArray with a single lane.)
   using Batch = double __attribute__((vector_size(batch_size * sizeof(double))));
-  struct BatchPair; // simd/pair.h
 
-  /// The functions of a `Number`, which is double or Batch: kernels are written once for both.
+  /// The functions of a `Number`, which is double, Batch or BatchPair: kernels are written once for all.
+  namespace simd
+  {
+    /// Two vectors side by side.
+    template <typename Half>
+    struct Pair
+    {
+      Half first, ///< lanes 0 to batch_size - 1
+          second; ///< lanes from batch_size on
+    };
+
+    /// Whether a type is a Pair.
+    template <typename>
+    constexpr bool is_pair = false;
+    template <typename Half>
+    constexpr bool is_pair<Pair<Half>> = true; ///< it is
+
+    /// The vector of a number: itself, or one of a pair.
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE inline auto &half(Number &x, [[maybe_unused]] const unsigned int h)
+    {
+      if constexpr (is_pair<std::remove_const_t<Number>>)
+        return h == 0 ? x.first : x.second;
+      else
+        return x;
+    }
+
+    /// A pair of these.
+    template <typename Half>
+    DEAL_II_ALWAYS_INLINE inline Pair<Half> pair_of(const Half &first, const Half &second)
+    {
+      return { first, second };
+    }
+
+    // Operators of two pairs, or of a pair and a number.
+#define SCREE_PAIR_OPERATOR(op)                                                            \
+  template <typename A, typename B, typename = std::enable_if_t<is_pair<A> || is_pair<B>>> \
+  DEAL_II_ALWAYS_INLINE inline auto operator op(const A &a, const B &b)                    \
+  {                                                                                        \
+    return pair_of(half(a, 0) op half(b, 0), half(a, 1) op half(b, 1));                    \
+  }
+    SCREE_PAIR_OPERATOR(+)
+    SCREE_PAIR_OPERATOR(-)
+    SCREE_PAIR_OPERATOR(*)
+    SCREE_PAIR_OPERATOR(/)
+    SCREE_PAIR_OPERATOR(<)
+    SCREE_PAIR_OPERATOR(<=)
+    SCREE_PAIR_OPERATOR(>)
+    SCREE_PAIR_OPERATOR(>=)
+    SCREE_PAIR_OPERATOR(==)
+    SCREE_PAIR_OPERATOR(&)
+    SCREE_PAIR_OPERATOR(|)
+#undef SCREE_PAIR_OPERATOR
+
+#define SCREE_PAIR_ASSIGNMENT(op)                                                    \
+  template <typename Half, typename B>                                               \
+  DEAL_II_ALWAYS_INLINE inline Pair<Half> &operator op##=(Pair<Half> &a, const B &b) \
+  {                                                                                  \
+    return a = a op b;                                                               \
+  }
+    SCREE_PAIR_ASSIGNMENT(+)
+    SCREE_PAIR_ASSIGNMENT(-)
+    SCREE_PAIR_ASSIGNMENT(*)
+#undef SCREE_PAIR_ASSIGNMENT
+
+    /// Changes all signs.
+    template <typename Half>
+    DEAL_II_ALWAYS_INLINE inline auto operator-(const Pair<Half> &a)
+    {
+      return pair_of(-a.first, -a.second);
+    }
+
+    /// Whether it does not hold, lane by lane.
+    template <typename Half>
+    DEAL_II_ALWAYS_INLINE inline auto operator!(const Pair<Half> &a)
+    {
+      return pair_of(!a.first, !a.second);
+    }
+  } // namespace simd
+
+  /// Two batches as one Number: where each operation waits for the one before, as in Newton's method, the processor
+  /// works on one while the other waits.
+  using BatchPair = simd::Pair<Batch>;
+
   namespace simd
   {
     /// Comparisons of batches: all bits of a lane are set where they hold, else none.
     using BatchBits = std::int64_t __attribute__((vector_size(batch_size * sizeof(double))));
 
-    /// Result of comparisons of a Number.
-    template <typename Number>
-    struct MaskOf
-    {
-      using type = std::conditional_t<std::is_same_v<Number, double>, bool, BatchBits>; ///< bool or BatchBits
-    };
-
     /// The type of comparisons; combine them by &, | and !.
     template <typename Number>
-    using Mask = typename MaskOf<Number>::type;
+    using Mask = std::conditional_t<std::is_same_v<Number, double>,
+                                    bool,
+                                    std::conditional_t<is_pair<Number>, Pair<BatchBits>, BatchBits>>;
 
     /// The bits of a Number as integers.
     template <typename Number>
-    using Bits = std::conditional_t<std::is_same_v<Number, double>, std::int64_t, BatchBits>;
+    using Bits = std::conditional_t<std::is_same_v<Number, double>, std::int64_t, Mask<Number>>;
 
     /// The same without a sign: bits may be shifted out of it.
     template <typename Number>
@@ -58,7 +135,7 @@ namespace scree
                                             std::uint64_t __attribute__((vector_size(batch_size * sizeof(double))))>;
 
     template <typename Number>
-    constexpr unsigned int n_lanes = sizeof(Number) / sizeof(double); ///< lanes of a Number: 1 or batch_size
+    constexpr unsigned int n_lanes = sizeof(Number) / sizeof(double); ///< lanes of a Number
 
     /// A Number with this value in all lanes.
     template <typename Number>
@@ -78,7 +155,10 @@ namespace scree
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline Number select(const Mask<Number> &condition, const Number &yes, const Number &no)
     {
-      return condition ? yes : no;
+      if constexpr (is_pair<Number>)
+        return { condition.first ? yes.first : no.first, condition.second ? yes.second : no.second };
+      else
+        return condition ? yes : no;
     }
 
     /// Lane by lane a bit.
@@ -104,38 +184,43 @@ namespace scree
 #endif
     }
 
+    /// The same of a pair.
+    DEAL_II_ALWAYS_INLINE inline unsigned int bits_of(const Pair<BatchBits> &mask)
+    {
+      return bits_of(mask.first) | bits_of(mask.second) << batch_size;
+    }
+
     /// Whether the condition holds in any lane.
     template <typename MaskType>
     DEAL_II_ALWAYS_INLINE inline bool any(const MaskType &mask)
     {
-      return bits_of(mask) != 0;
+      if constexpr (is_pair<MaskType>)
+        return any(mask.first | mask.second);
+      else
+        return bits_of(mask) != 0;
     }
 
-    /// The lane of a number: itself.
-    inline double lane(const double value, const unsigned int)
+    /// A lane of a number; set_lane() sets it.
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE inline double lane(const Number &number, [[maybe_unused]] const unsigned int lane)
     {
-      return value;
+      if constexpr (std::is_same_v<Number, double>)
+        return number;
+      else
+        return half(number, lane / batch_size)[lane % batch_size];
     }
 
-    /// A lane of a batch.
-    inline double lane(const Batch &value, const unsigned int lane)
+    /// Sets a lane of a number, or of a condition: to all bits for `true`.
+    template <typename Number, typename Value>
+    DEAL_II_ALWAYS_INLINE inline void
+    set_lane(Number &number, [[maybe_unused]] const unsigned int lane, const Value value)
     {
-      return value[lane];
-    }
-
-    /// A lane of a pair.
-    double lane(const BatchPair &value, const unsigned int lane);
-
-    /// Sets the lane of a number: itself.
-    inline void set_lane(double &number, const unsigned int, const double value)
-    {
-      number = value;
-    }
-
-    /// Sets a lane of a batch.
-    inline void set_lane(Batch &number, const unsigned int lane, const double value)
-    {
-      number[lane] = value;
+      if constexpr (std::is_arithmetic_v<Number>)
+        number = value;
+      else if constexpr (std::is_same_v<Value, bool>)
+        half(number, lane / batch_size)[lane % batch_size] = value ? -1 : 0;
+      else
+        half(number, lane / batch_size)[lane % batch_size] = value;
     }
 
     /// The bits of a Number, read as integers.
@@ -160,7 +245,10 @@ namespace scree
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline Number abs(const Number &x)
     {
-      return from_bits<Number>(to_bits(x) & 0x7fffffffffffffff);
+      if constexpr (is_pair<Number>)
+        return { abs(x.first), abs(x.second) };
+      else
+        return from_bits<Number>(to_bits(x) & 0x7fffffffffffffff);
     }
 
     /// The larger one; b if either is not a number.
@@ -183,6 +271,8 @@ namespace scree
     {
       if constexpr (std::is_same_v<Number, double>)
         return std::sqrt(x);
+      else if constexpr (is_pair<Number>)
+        return { sqrt(x.first), sqrt(x.second) };
       else
         {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
@@ -235,25 +325,30 @@ namespace scree
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline Number exp(const Number &x)
     {
-      constexpr double to_integer = 0x1.8p52; // the sum's last bit stands for 1
-      const Number shifted        = x * 1.4426950408889634 + to_integer;
-      const Number n              = shifted - to_integer;
-      const Number r              = (x - n * 0x1.62e42fefa0000p-1) - n * 0x1.cf79abc9e3b3ap-40; // ln(2) in two parts
+      if constexpr (is_pair<Number>)
+        return { exp(x.first), exp(x.second) };
+      else
+        {
+          constexpr double to_integer = 0x1.8p52; // the sum's last bit stands for 1
+          const Number shifted        = x * 1.4426950408889634 + to_integer;
+          const Number n              = shifted - to_integer;
+          const Number r = (x - n * 0x1.62e42fefa0000p-1) - n * 0x1.cf79abc9e3b3ap-40; // ln(2) in two parts
 
-      const Number r2 = r * r, r4 = r2 * r2;
-      const Number low =
-          (0x1.0000000000000p-1 + r * 0x1.5555555555557p-3) + r2 * (0x1.5555555555556p-5 + r * 0x1.11111111100dcp-7);
-      const Number middle = (0x1.6c16c16c162d4p-10 + r * 0x1.a01a01abe7fe1p-13) +
-                            r2 * (0x1.a01a01a6d889cp-16 + r * 0x1.71de0231960ebp-19);
-      const Number high  = (0x1.27e4db646b17ep-22 + r * 0x1.af4de97ca4194p-26) + r2 * 0x1.1f730349868cep-29;
-      const Number power = 1. + (r + r2 * (low + r4 * (middle + r4 * high)));
+          const Number r2 = r * r, r4 = r2 * r2;
+          const Number low = (0x1.0000000000000p-1 + r * 0x1.5555555555557p-3) +
+                             r2 * (0x1.5555555555556p-5 + r * 0x1.11111111100dcp-7);
+          const Number middle = (0x1.6c16c16c162d4p-10 + r * 0x1.a01a01abe7fe1p-13) +
+                                r2 * (0x1.a01a01a6d889cp-16 + r * 0x1.71de0231960ebp-19);
+          const Number high  = (0x1.27e4db646b17ep-22 + r * 0x1.af4de97ca4194p-26) + r2 * 0x1.1f730349868cep-29;
+          const Number power = 1. + (r + r2 * (low + r4 * (middle + r4 * high)));
 
-      const auto exponent         = UnsignedBits<Number>(to_bits(shifted)) << 52;
-      Number result               = from_bits<Number>(to_bits(power) + Bits<Number>(exponent));
-      const Mask<Number> is_usual = (x > -708.) & (x < 709.);
-      if (any(!is_usual))
-        set_lanes_by([](const double value) { return std::exp(value); }, x, !is_usual, result);
-      return result;
+          const auto exponent         = UnsignedBits<Number>(to_bits(shifted)) << 52;
+          Number result               = from_bits<Number>(to_bits(power) + Bits<Number>(exponent));
+          const Mask<Number> is_usual = (x > -708.) & (x < 709.);
+          if (any(!is_usual))
+            set_lanes_by([](const double value) { return std::exp(value); }, x, !is_usual, result);
+          return result;
+        }
     }
 
     /// ln(x) to one unit in the last place: that of 2^n m with m about 1 by fdlibm's polynomial in s = f/(2 + f),
@@ -261,30 +356,35 @@ namespace scree
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline Number log(const Number &x)
     {
-      constexpr std::int64_t one = 0x3ff0000000000000, lowest = 0x3fe6a09e667f3bcd; // bits of 1 and 1/sqrt(2)
+      if constexpr (is_pair<Number>)
+        return { log(x.first), log(x.second) };
+      else
+        {
+          constexpr std::int64_t one = 0x3ff0000000000000, lowest = 0x3fe6a09e667f3bcd; // bits of 1 and 1/sqrt(2)
 
-      // The exponent is put into the last bits of 2^52, where it can be read as a number.
-      const Bits<Number> bits = to_bits(x) + (one - lowest);
-      const Number n          = from_bits<Number>((bits >> 52) | 0x4330000000000000) - (0x1p52 + 1023.);
-      const Number f          = from_bits<Number>((bits & 0x000fffffffffffff) + lowest) - 1.;
-      const Number s = f / (2. + f), z = s * s, w = z * z, half_square = 0.5 * f * f;
-      const Number even =
-          w * (3.999999999940941908e-01 + w * (2.222219843214978396e-01 + w * 1.531383769920937332e-01));
-      const Number odd =
-          z * (6.666666666666735130e-01 +
-               w * (2.857142874366239149e-01 + w * (1.818357216161805012e-01 + w * 1.479819860510658591e-01)));
-      Number result = n * 6.93147180369123816490e-01 -
-                      ((half_square - (s * (half_square + (even + odd)) + n * 1.90821492927058770002e-10)) - f);
+          // The exponent is put into the last bits of 2^52, where it can be read as a number.
+          const Bits<Number> bits = to_bits(x) + (one - lowest);
+          const Number n          = from_bits<Number>((bits >> 52) | 0x4330000000000000) - (0x1p52 + 1023.);
+          const Number f          = from_bits<Number>((bits & 0x000fffffffffffff) + lowest) - 1.;
+          const Number s = f / (2. + f), z = s * s, w = z * z, half_square = 0.5 * f * f;
+          const Number even =
+              w * (3.999999999940941908e-01 + w * (2.222219843214978396e-01 + w * 1.531383769920937332e-01));
+          const Number odd =
+              z * (6.666666666666735130e-01 +
+                   w * (2.857142874366239149e-01 + w * (1.818357216161805012e-01 + w * 1.479819860510658591e-01)));
+          Number result = n * 6.93147180369123816490e-01 -
+                          ((half_square - (s * (half_square + (even + odd)) + n * 1.90821492927058770002e-10)) - f);
 
-      const Mask<Number> is_usual =
-          (x >= std::numeric_limits<double>::min()) & (x <= std::numeric_limits<double>::max());
-      if (any(!is_usual))
-        set_lanes_by([](const double value) { return std::log(value); }, x, !is_usual, result);
-      return result;
+          const Mask<Number> is_usual =
+              (x >= std::numeric_limits<double>::min()) & (x <= std::numeric_limits<double>::max());
+          if (any(!is_usual))
+            set_lanes_by([](const double value) { return std::log(value); }, x, !is_usual, result);
+          return result;
+        }
     }
 
     /// The cube root to a few units in the last place: near 1, where ratios of volumes lie, by the binomial series,
-    /// farther by two steps of Halley's method from the tangent.
+    /// else from the C library.
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline Number cube_root(const Number &x)
     {
@@ -294,18 +394,7 @@ namespace scree
                                                       e2 * ((22. / 729. - e * (154. / 6561.)) + e2 * (374. / 19683.))));
       const Mask<Number> is_near = simd::abs<Number>(e) < 0.01;
       if (any(!is_near))
-        {
-          Number other = 1. + e * (1. / 3.);
-          for (unsigned int step = 0; step < 2; ++step)
-            {
-              const Number cube = other * other * other;
-              other *= (cube + 2. * x) / (2. * cube + x);
-            }
-          root                        = select<Number>(is_near, root, other);
-          const Mask<Number> is_usual = simd::abs<Number>(e) < 0.1;
-          if (any(!is_usual))
-            set_lanes_by([](const double value) { return std::cbrt(value); }, x, !is_usual, root);
-        }
+        set_lanes_by([](const double value) { return std::cbrt(value); }, x, !is_near, root);
       return root;
     }
   } // namespace simd

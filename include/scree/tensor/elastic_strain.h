@@ -6,83 +6,15 @@
 
 namespace scree
 {
-  /// Logarithmic elastic strain 1/2 ln b as volume strain and deviator, and the way back to b along the same axes: what
-  /// isotropic laws without corners need.
-  template <int dim, typename Number>
-  class ElasticStrain;
-
-
-  /// Plane strain, by principal values in closed form.
+  /// Logarithmic elastic strain 1/2 ln b in three dimensions as volume strain and deviator, and the way back to b along
+  /// the same axes: what isotropic laws without corners need, without principal directions. b = m (I + D) with the
+  /// trace-free D has ln b = ln m I + D - D^2/2 + D^3/3 - ... . By Cayley and Hamilton D^3 = J_2 D + J_3 I, so that
+  /// every power is a combination of I, D and D^2, and the series is one of scalars; exp likewise. Valid where
+  /// principal values differ by less than a fifth or so.
   template <typename Number>
-  class ElasticStrain<2, Number>
+  class ElasticStrain
   {
   public:
-    ElasticStrain() = default;
-
-    /// Decomposes 1/2 ln b.
-    /// @param b components of a left Cauchy-Green tensor, see tensor/components.h
-    DEAL_II_ALWAYS_INLINE inline explicit ElasticStrain(const Number *b)
-        : frame(b)
-        , principal(log_strain(frame.values()))
-    {
-      volume = principal[0] + principal[1] + principal[2];
-      square = simd::broadcast<Number>(0.);
-      for (Number &value : principal)
-        {
-          value -= volume * (1. / 3.);
-          square += value * value;
-        }
-      frame.compose(principal, deviator);
-      is_valid = simd::abs<Number>(volume) <= std::numeric_limits<double>::max();
-    }
-
-    /// Components of b of this volume strain and `factor` times the deviator.
-    DEAL_II_ALWAYS_INLINE inline void
-    left_cauchy_green(const Number &volume_strain, const Number &factor, Number *b) const
-    {
-      const Number mean = volume_strain * (1. / 3.);
-      left_cauchy_green_of(
-          frame, { { mean + factor * principal[0], mean + factor * principal[1], mean + factor * principal[2] } }, b);
-    }
-
-    /// Determinant of the deviator.
-    Number third() const
-    {
-      return principal[0] * principal[1] * principal[2];
-    }
-
-    /// Smallest principal value of the deviator.
-    Number least_deviator() const
-    {
-      return simd::min<Number>(principal[0], simd::min<Number>(principal[1], principal[2]));
-    }
-
-    /// A number below which it is not, cheap.
-    Number bound_of_deviator() const
-    {
-      return least_deviator();
-    }
-
-    Number volume;               ///< tr
-    Number deviator[4],          ///< components of dev(eps)
-        square;                  ///< |dev(eps)|^2
-    simd::Mask<Number> is_valid; ///< else b is no left Cauchy-Green tensor
-
-  private:
-    PrincipalFrame<2, Number> frame;
-    PrincipalNumbers<Number> principal; // of the deviator
-  };
-
-
-  /// Three dimensions, without principal directions: b = m (I + D) with the trace-free D has ln b = ln m I + D - D^2/2
-  /// + D^3/3 - ... . By Cayley and Hamilton D^3 = J_2 D + J_3 I, so that every power is a combination of I, D and D^2,
-  /// and the series is one of scalars; exp likewise. Valid where principal values differ by less than a fifth or so.
-  template <typename Number>
-  class ElasticStrain<3, Number>
-  {
-  public:
-    ElasticStrain() = default;
-
     /// Decomposes 1/2 ln b by a series.
     /// @param b components of a left Cauchy-Green tensor, see tensor/components.h
     DEAL_II_ALWAYS_INLINE inline explicit ElasticStrain(const Number *b)
@@ -112,8 +44,7 @@ namespace scree
     }
 
     /// Components of b of this volume strain and `factor` times the deviator.
-    DEAL_II_ALWAYS_INLINE inline void
-    left_cauchy_green(const Number &volume_strain, const Number &factor, Number *b) const
+    DEAL_II_ALWAYS_INLINE inline void compose(const Number &volume_strain, const Number &factor, Number *b) const
     {
       Number D[6];
       for (unsigned int c = 0; c < 6; ++c)
@@ -144,22 +75,13 @@ namespace scree
       return -1. * simd::sqrt<Number>(2. / 3. * square);
     }
 
-    /// By Newton's method on the characteristic cubic from below its smallest root, which it cannot pass.
+    /// Smallest principal value of the deviator.
     Number least_deviator() const
     {
-      constexpr unsigned int largest_number_of_steps = 60; // a double root: half the way each
-      const Number J2 = 0.5 * square, J3 = determinant_of_components<3>(deviator);
-      Number root = -1.1547005383792517 * simd::sqrt<Number>(J2); // -sqrt(4/3 J2)
-      for (unsigned int i = 0; i < largest_number_of_steps; ++i)
-        {
-          const Number value = (root * root - J2) * root - J3, slope = 3. * root * root - J2;
-          const Number next = root - value / simd::max<Number>(slope, simd::broadcast<Number>(1e-300));
-          const auto moves  = (value < 0.) & (next - root > -1e-12 * root);
-          root              = simd::select<Number>(moves, next, root);
-          if (!simd::any(moves))
-            break;
-        }
-      return root;
+      // A copy: the deviator stays in registers.
+      const Number components[] = { deviator[0], deviator[1], deviator[2], deviator[3], deviator[4], deviator[5] };
+      const PrincipalNumbers<Number> values = principal_values(components);
+      return simd::min<Number>(values[0], simd::min<Number>(values[1], values[2]));
     }
 
     Number volume;               ///< tr(eps)
@@ -168,6 +90,12 @@ namespace scree
     simd::Mask<Number> is_valid; ///< else b is far from a sphere, or no left Cauchy-Green tensor
 
   private:
+    /// Rarely asked for.
+    static __attribute__((noinline)) PrincipalNumbers<Number> principal_values(const Number *components)
+    {
+      return PrincipalFrame<3, Number>(components).values();
+    }
+
     /// Factors of I, D and D^2.
     struct Series
     {

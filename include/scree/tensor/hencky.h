@@ -34,32 +34,26 @@ namespace scree
   DEAL_II_ALWAYS_INLINE inline void
   trial_left_cauchy_green(const Number *f, const Number &out_of_plane_stretch, const Number *b, Number *result)
   {
-    if constexpr (dim == 2)
-      {
-        const Number x_x = f[0] * b[0] + f[1] * b[3]; // (f b)_xx and so on
-        const Number x_y = f[0] * b[3] + f[1] * b[1];
-        const Number y_x = f[2] * b[0] + f[3] * b[3];
-        const Number y_y = f[2] * b[3] + f[3] * b[1];
-
-        result[0] = x_x * f[0] + x_y * f[1];
-        result[1] = y_x * f[2] + y_y * f[3];
-        result[2] = out_of_plane_stretch * out_of_plane_stretch * b[2];
-        result[3] = x_x * f[2] + x_y * f[3];
-      }
-    else
-      {
-        const Number full[3][3] = { { b[0], b[3], b[4] }, { b[3], b[1], b[5] }, { b[4], b[5], b[2] } };
-        Number product[3][3];
-        for (unsigned int i = 0; i < 3; ++i)
-          for (unsigned int j = 0; j < 3; ++j)
-            product[i][j] = f[3 * i] * full[0][j] + f[3 * i + 1] * full[1][j] + f[3 * i + 2] * full[2][j];
-
-        constexpr unsigned int rows[6]    = { 0, 1, 2, 0, 0, 1 };
-        constexpr unsigned int columns[6] = { 0, 1, 2, 1, 2, 2 };
-        for (unsigned int c = 0; c < 6; ++c)
-          result[c] = product[rows[c]][0] * f[3 * columns[c]] + product[rows[c]][1] * f[3 * columns[c] + 1] +
-                      product[rows[c]][2] * f[3 * columns[c] + 2];
-      }
+    constexpr unsigned int rows[6] = { 0, 1, 2, 0, 0, 1 }, columns[6] = { 0, 1, 2, 1, 2, 2 };
+    const auto full = matrix_of_components<dim>(b);
+    Number product[dim][dim]; // f b
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        {
+          product[i][j] = f[dim * i] * full[0][j] + f[dim * i + 1] * full[1][j];
+          if constexpr (dim == 3)
+            product[i][j] += f[dim * i + 2] * full[2][j];
+        }
+    for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
+      if (dim == 2 && c == 2)
+        result[c] = out_of_plane_stretch * out_of_plane_stretch * b[c];
+      else
+        {
+          const Number *of_row = product[rows[c]], *of_column = f + dim * columns[c];
+          result[c] = of_row[0] * of_column[0] + of_row[1] * of_column[1];
+          if constexpr (dim == 3)
+            result[c] += of_row[2] * of_column[2];
+        }
   }
 } // namespace scree
 

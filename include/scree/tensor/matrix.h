@@ -9,8 +9,8 @@
 namespace scree
 {
   /// The dim x dim matrix of a symmetric tensor given by components (plane strain: the in-plane part).
-  template <int dim>
-  std::array<std::array<double, dim>, dim> matrix_of_components(const double *t)
+  template <int dim, typename Number>
+  std::array<std::array<Number, dim>, dim> matrix_of_components(const Number *t)
   {
     if constexpr (dim == 2)
       return { { { { t[0], t[3] } }, { { t[3], t[1] } } } };

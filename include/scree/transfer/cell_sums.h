@@ -6,7 +6,6 @@
 #include <scree/mesh/node_values.h>
 #include <scree/particles/point_lists.h>
 #include <scree/simd/records.h>
-#include <scree/simd/sums.h>
 #include <scree/transfer/transfer_parameters.h>
 
 #include <deal.II/base/config.h>
@@ -172,30 +171,6 @@ namespace scree
     });
   }
 
-  /// The momentum of a point's affine velocity field, phi_i m C (x_i - x), as the axes contribute to it.
-  template <int dim, int n>
-  struct AffineMomentum
-  {
-    std::array<std::array<double, dim>, dim> slope; ///< m C by component and axis, kg/s
-    std::array<std::array<double, n>, dim> factor;  ///< shape functions of an axis times x_i - x, m
-  };
-
-  /// @param affine the point's slots: the velocity gradient (TPIC, AFLIP); nothing for FLIP
-  /// @param mass kg
-  template <TransferMethod method, int dim, int n, typename Shape>
-  DEAL_II_ALWAYS_INLINE inline AffineMomentum<dim, n>
-  affine_momentum(const Shape &shape, const double mass, const double *affine)
-  {
-    AffineMomentum<dim, n> result{};
-    if constexpr (carries_affine(method))
-      for (unsigned int a = 0; a < dim; ++a)
-        {
-          result.factor[a] = shape.moment[a];
-          for (unsigned int c = 0; c < dim; ++c)
-            result.slope[c][a] = mass * affine[c * dim + a];
-        }
-    return result;
-  }
 
   /// Mass, momentum and force of a cell's points at its nodes: one kernel for points of soil and of water. A point
   /// gives node (i, j, k), component by component,
@@ -214,45 +189,41 @@ namespace scree
   public:
     /// @param width of the cell, m
     explicit CellSums(const double width)
-        : width(width)
-        , inverse_width(1. / width)
+        : inverse_width(1. / width)
     {
     }
 
-    /// Adds m phi_i and m phi_i (v + C (x_i - x)), with C = 0 for FLIP.
+    /// Adds m phi_i and m phi_i (v + C (x_i - x)), with C = 0 unless the momentum `is_affine`.
     ///
     /// @param velocity the point's slots
-    /// @param affine its slots of the affine field, which FLIP does not read
-    template <TransferMethod method, typename Shape>
+    /// @param affine its slots of the affine field, if it is read
+    template <bool is_affine, typename Shape>
     DEAL_II_ALWAYS_INLINE inline void
     add_momentum(const Shape &shape, const double mass, const double *velocity, const double *affine)
     {
-      add<true, false, carries_affine(method)>(
-          shape, momentum_of(mass, velocity), affine_momentum<method, dim, n>(shape, mass, affine), no_stress);
+      add<true, false, is_affine>(shape, momentum_of(mass, velocity), slope_of<is_affine>(mass, affine), {});
     }
 
     /// Adds -V sigma grad phi_i.
     ///
     /// @param stress symmetric, dim x dim, Pa
-    template <typename Shape, typename Matrix>
-    DEAL_II_ALWAYS_INLINE inline void add_force(const Shape &shape, const double volume, const Matrix &stress)
+    template <typename Shape, typename Stress>
+    DEAL_II_ALWAYS_INLINE inline void add_force(const Shape &shape, const double volume, const Stress &stress)
     {
       add<false, true, false>(shape, {}, {}, force_of(volume, stress));
     }
 
     /// Adds both.
-    template <TransferMethod method, typename Shape, typename Matrix>
+    template <bool is_affine, typename Shape, typename Stress>
     DEAL_II_ALWAYS_INLINE inline void add(const Shape &shape,
                                           const double mass,
                                           const double *velocity,
                                           const double *affine,
                                           const double volume,
-                                          const Matrix &stress)
+                                          const Stress &stress)
     {
-      add<true, true, carries_affine(method)>(shape,
-                                              momentum_of(mass, velocity),
-                                              affine_momentum<method, dim, n>(shape, mass, affine),
-                                              force_of(volume, stress));
+      add<true, true, is_affine>(
+          shape, momentum_of(mass, velocity), slope_of<is_affine>(mass, affine), force_of(volume, stress));
     }
 
     /// Adds the sums to the field.
@@ -283,13 +254,24 @@ namespace scree
     static constexpr unsigned int n_nodes = dealii::Utilities::pow(n, dim);
     static constexpr unsigned int n_lanes = dim == 2 ? 1 + dim + dim * dim : Field::n_components;
     static constexpr unsigned int n_parts = (n_lanes + batch_size - 1) / batch_size;
-    static constexpr Matrix no_stress{};
 
     static Momentum momentum_of(const double mass, const double *velocity)
     {
       Momentum result{ { mass } };
       for (unsigned int c = 0; c < dim; ++c)
         result[1 + c] = mass * velocity[c];
+      return result;
+    }
+
+    /// m C, kg/s.
+    template <bool is_affine>
+    static Matrix slope_of(const double mass, [[maybe_unused]] const double *affine)
+    {
+      Matrix result{};
+      if constexpr (is_affine)
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int a = 0; a < dim; ++a)
+            result[c][a] = mass * affine[c * dim + a];
       return result;
     }
 
@@ -319,20 +301,20 @@ namespace scree
 
     template <bool with_momentum, bool with_force, bool is_affine, typename Shape>
     DEAL_II_ALWAYS_INLINE inline void
-    add(const Shape &shape, const Momentum &momentum, const AffineMomentum<dim, n> &affine, const Matrix &force)
+    add(const Shape &shape, const Momentum &momentum, const Matrix &slope, const Matrix &force)
     {
-      add_part<0, with_momentum, with_force, is_affine>(shape, momentum, affine, force);
+      add_part<0, with_momentum, with_force, is_affine>(shape, momentum, slope, force);
       if constexpr (n_parts > 1)
-        add_part<1, with_momentum, with_force, is_affine>(shape, momentum, affine, force);
+        add_part<1, with_momentum, with_force, is_affine>(shape, momentum, slope, force);
       if constexpr (n_parts > 2)
-        add_part<2, with_momentum, with_force, is_affine>(shape, momentum, affine, force);
+        add_part<2, with_momentum, with_force, is_affine>(shape, momentum, slope, force);
       if constexpr (n_parts > 3)
-        add_part<3, with_momentum, with_force, is_affine>(shape, momentum, affine, force);
+        add_part<3, with_momentum, with_force, is_affine>(shape, momentum, slope, force);
     }
 
     template <unsigned int part, bool with_momentum, bool with_force, bool is_affine, typename Shape>
     DEAL_II_ALWAYS_INLINE inline void
-    add_part(const Shape &shape, const Momentum &momentum, const AffineMomentum<dim, n> &affine, const Matrix &force)
+    add_part(const Shape &shape, const Momentum &momentum, const Matrix &slope, const Matrix &force)
     {
       constexpr unsigned int begin = part * batch_size, end = begin + batch_size;
       constexpr bool momentum_here = with_momentum && begin < Field::force;
@@ -341,27 +323,25 @@ namespace scree
       if constexpr (momentum_here || force_here)
         {
           if constexpr (dim == 2)
-            add_products<part, force_here, affine_here>(shape, momentum, affine, force);
+            add_products<part, force_here, affine_here>(shape, momentum, slope, force);
           else
-            add_slopes<part, force_here, affine_here>(shape, momentum, affine, force);
+            add_slopes<part, force_here, affine_here>(shape, momentum, slope, force);
         }
     }
 
     /// The momentum's slope along an axis, in its lanes.
     template <unsigned int part>
-    static DEAL_II_ALWAYS_INLINE inline Batch slope_of(const AffineMomentum<dim, n> &affine, const unsigned int a)
+    static DEAL_II_ALWAYS_INLINE inline Batch slope_along(const Matrix &slope, const unsigned int a)
     {
       return part_of<part>([&](const unsigned int c) {
-        return c >= Field::momentum && c < Field::force ? affine.slope[c - Field::momentum][a] : 0.;
+        return c >= Field::momentum && c < Field::force ? slope[c - Field::momentum][a] : 0.;
       });
     }
 
     /// Two dimensions: products of a factor of each axis and a number, lane by lane.
     template <unsigned int part, bool force_here, bool affine_here, typename Shape>
-    DEAL_II_ALWAYS_INLINE inline void add_products(const Shape &shape,
-                                                   const Momentum &momentum,
-                                                   const AffineMomentum<dim, n> &affine,
-                                                   const Matrix &force)
+    DEAL_II_ALWAYS_INLINE inline void
+    add_products(const Shape &shape, const Momentum &momentum, const Matrix &slope, const Matrix &force)
     {
       const Batch value = part_of<part>([&](const unsigned int c) {
         const unsigned int of_force = c - Field::force;
@@ -385,8 +365,8 @@ namespace scree
           line[j]       = f * value;
           if constexpr (affine_here)
             {
-              line[j] += affine.factor[1][j] * slope_of<part>(affine, 1);
-              slope_of_line[j] = f * slope_of<part>(affine, 0);
+              line[j] += shape.moment[1][j] * slope_along<part>(slope, 1);
+              slope_of_line[j] = f * slope_along<part>(slope, 0);
             }
         }
       for (unsigned int i = 0; i < n; ++i)
@@ -397,7 +377,7 @@ namespace scree
               Batch &sum = sums[j * n + i][part];
               sum += f * line[j];
               if constexpr (affine_here)
-                sum += affine.factor[0][i] * slope_of_line[j];
+                sum += shape.moment[0][i] * slope_of_line[j];
             }
         }
     }
@@ -405,16 +385,16 @@ namespace scree
     /// Three dimensions: value and slopes, component by component.
     template <unsigned int part, bool force_here, bool affine_here, typename Shape>
     DEAL_II_ALWAYS_INLINE inline void
-    add_slopes(const Shape &shape, const Momentum &momentum, const AffineMomentum<dim, n> &affine, const Matrix &force)
+    add_slopes(const Shape &shape, const Momentum &momentum, const Matrix &slope, const Matrix &force)
     {
       constexpr bool slope_here = force_here || affine_here;
       const Batch value = part_of<part>([&](const unsigned int c) { return c < Field::force ? momentum[c] : 0.; });
-      [[maybe_unused]] Batch slope[dim];
+      [[maybe_unused]] Batch slopes[dim];
       if constexpr (slope_here)
         for (unsigned int a = 0; a < dim; ++a)
-          slope[a] = part_of<part>([&](const unsigned int c) {
+          slopes[a] = part_of<part>([&](const unsigned int c) {
             if (c >= Field::momentum && c < Field::force)
-              return affine.slope[c - Field::momentum][a];
+              return slope[c - Field::momentum][a];
             return c >= Field::force && c < Field::n_components ? force[c - Field::force][a] : 0.;
           });
       const auto &f = shape.basis.value;
@@ -422,10 +402,10 @@ namespace scree
       const auto g = [&](const unsigned int a, const unsigned int i) {
         if constexpr (affine_here && force_here)
           return part_of<part>([&](const unsigned int c) {
-            return c < Field::force ? affine.factor[a][i] : shape.basis.derivative[a][i];
+            return c < Field::force ? shape.moment[a][i] : shape.basis.derivative[a][i];
           });
         else if constexpr (affine_here)
-          return affine.factor[a][i];
+          return shape.moment[a][i];
         else
           return shape.basis.derivative[a][i];
       };
@@ -433,24 +413,24 @@ namespace scree
         {
           Batch of_plane = f[2][k] * value;
           if constexpr (slope_here)
-            of_plane += g(2, k) * slope[2];
+            of_plane += g(2, k) * slopes[2];
           for (unsigned int j = 0; j < n; ++j)
             {
               Batch of_line = f[1][j] * of_plane;
               if constexpr (slope_here)
-                of_line += g(1, j) * (f[2][k] * slope[1]);
+                of_line += g(1, j) * (f[2][k] * slopes[1]);
               for (unsigned int i = 0; i < n; ++i)
                 {
                   Batch &sum = sums[(k * n + j) * n + i][part];
                   sum += f[0][i] * of_line;
                   if constexpr (slope_here)
-                    sum += g(0, i) * (f[1][j] * (f[2][k] * slope[0]));
+                    sum += g(0, i) * (f[1][j] * (f[2][k] * slopes[0]));
                 }
             }
         }
     }
 
-    const double width, inverse_width;
+    const double inverse_width;
     Batch sums[n_nodes][n_parts] = {};
   };
 } // namespace scree

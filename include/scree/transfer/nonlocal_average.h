@@ -4,7 +4,7 @@
 
 #include <scree/bodies/soil_body.h>
 #include <scree/mesh/background_grid.h>
-#include <scree/mesh/node_values.h>
+#include <scree/transfer/water_transfer.h>
 
 namespace scree
 {
@@ -35,11 +35,6 @@ namespace scree
   private:
     static constexpr unsigned int n_corners = 1 << dim;
     static constexpr unsigned int value = 0, mass = 1; // sums at a corner: of mass times variable, of mass
-
-    using Weights = std::array<double, n_corners>;
-
-    /// Linear functions of a cell's corners.
-    static Weights weights_at(const dealii::Point<dim> &place);
 
     void add_points(const PointSet<dim> &points, const unsigned int offset);
     void smooth(const PointSet<dim> &points, const double ratio);

@@ -9,35 +9,10 @@
 #include <scree/transfer/skeleton_damping.h>
 #include <scree/transfer/transfer_parameters.h>
 
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace scree
 {
-  /// A point that cannot follow its nodes in a step.
-  class PointFault : public std::runtime_error
-  {
-  public:
-    /// @param point body, number and place
-    /// @param what what is wrong, and what to try
-    PointFault(const std::string &point, const std::string &what)
-        : std::runtime_error(point + ": " + what)
-        , point(point)
-        , fault(what)
-    {
-    }
-
-    /// The whole message, with the time, s, in words.
-    std::string text(const std::string &time) const
-    {
-      return point + ", t = " + time + " s: " + fault;
-    }
-
-  private:
-    const std::string point, fault;
-  };
-
   /// What a pass from the grid to the points found out; cells add up.
   struct MotionReport
   {
@@ -69,7 +44,7 @@ namespace scree
                            const double damping_time = 0.);
 
   private:
-    template <int n, TransferMethod method, bool is_damped>
+    template <int n, bool is_affine, bool is_damped>
     void add_points(const SoilBody<dim> &body, NodalField<dim> &field) const;
 
     /// to_points() for cells of n nodes along each axis.
@@ -89,8 +64,8 @@ namespace scree
                    const unsigned int first,
                    LargestSquare &largest);
 
-    /// Volume, stress and state of a block of points, of which `cell` is the first one, from `motion`. Throws
-    /// PointFault if a point is deformed too much in a step.
+    /// Volume, stress and state of a block of points, of which `cell` is the first one, from `motion`. Throws a
+    /// PointFault with its name if a point is deformed too much in a step.
     void update_state(const SoilBody<dim> &body,
                       const CellPoints<dim> &cell,
                       const unsigned int n_points,

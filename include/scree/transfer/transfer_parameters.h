@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 namespace scree
 {
@@ -27,6 +28,21 @@ namespace scree
   constexpr bool carries_affine(const TransferMethod method)
   {
     return method == TransferMethod::tpic || method == TransferMethod::aflip;
+  }
+
+  /// Calls `act` with the method as a constant.
+  template <typename Act>
+  auto with_method(const TransferMethod method, const Act &act)
+  {
+    switch (method)
+      {
+      case TransferMethod::flip:
+        return act(std::integral_constant<TransferMethod, TransferMethod::flip>());
+      case TransferMethod::aflip:
+        return act(std::integral_constant<TransferMethod, TransferMethod::aflip>());
+      default:
+        return act(std::integral_constant<TransferMethod, TransferMethod::tpic>());
+      }
   }
 
   /// Treatment of volumetric locking and stress oscillation.

@@ -117,7 +117,7 @@ namespace scree
     template <int n>
     void add_soil(const SoilBody<dim> &soil, Mixture<dim> &mixture) const;
 
-    template <int n, TransferMethod method>
+    template <int n, bool is_affine>
     void add_water(const WaterPhase<dim> &water,
                    Mixture<dim> &mixture,
                    NodalField<dim> &field,

@@ -32,7 +32,7 @@ namespace scree
     /// Cauchy and Schwarz for |sum grad phi_i v_i|^2.
     double largest_rate(const WaterPhase<dim> &water) const
     {
-      return grid.n_nodes_1d() == 2 ? bound<2>(water) : bound<3>(water);
+      return with_nodes_1d(grid, [&](auto n) { return bound<n>(water); });
     }
 
   private:

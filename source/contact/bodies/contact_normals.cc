@@ -316,10 +316,7 @@ namespace scree
   template <int dim>
   void ContactNormals<dim>::find()
   {
-    if (grid.n_nodes_1d() == 2)
-      find<2>();
-    else
-      find<3>();
+    with_nodes_1d(grid, [&](auto n) { find<n>(); });
   }
 
   template class ContactNormals<2>;

@@ -10,35 +10,20 @@ using namespace dealii;
 
 namespace scree
 {
-  double radians(const double degrees)
+  namespace
   {
-    return degrees * numbers::PI / 180;
-  }
+    double radians(const double degrees)
+    {
+      return degrees * numbers::PI / 180;
+    }
+
+    constexpr char of_plane[] = "direct shear or repose"; // kind of a friction angle: tau/sigma on a plane of shear
+  }                                                       // namespace
 
 
   double divided_angle(const double degrees, const double factor)
   {
     return std::atan(std::tan(radians(degrees)) / factor) * 180 / numbers::PI;
-  }
-
-
-  FrictionAngleKind friction_angle_kind(const std::string &name)
-  {
-    if (name == "triaxial")
-      return FrictionAngleKind::triaxial;
-    if (name == "plane strain")
-      return FrictionAngleKind::plane_strain;
-    AssertThrow(name == "direct shear or repose", ExcMessage("There is no kind of angle \"" + name + "\"."));
-    return FrictionAngleKind::direct_shear;
-  }
-
-
-  double sine_of_mohr_coulomb(const double angle, const double dilation_angle, const FrictionAngleKind kind)
-  {
-    if (kind != FrictionAngleKind::direct_shear)
-      return std::sin(radians(angle));
-    const double on_plane = std::tan(radians(angle)), psi = radians(dilation_angle);
-    return on_plane / (std::cos(psi) + std::sin(psi) * on_plane);
   }
 
 
@@ -114,14 +99,13 @@ namespace scree
 
   void MohrCoulombParameters::add_parameters(ParameterHandler &prm)
   {
-    prm.add_parameter("Young's modulus", young_modulus, "Pa; Young's modulus.", Patterns::Double(0));
-    prm.add_parameter("Poisson's ratio", poisson_ratio, "Poisson's ratio.", Patterns::Double(-1, 0.5));
+    LinearElasticParameters::add_parameters(prm);
     prm.add_parameter("Friction angle", friction_angle, "degrees; friction angle phi.", Patterns::Double(0, 89));
     prm.add_parameter("Friction angle kind",
                       angle_kind,
                       "Test that \"Friction angle\" comes from. triaxial: phi is this angle. plane strain: the same. "
                       "direct shear or repose: its tangent is tau/sigma on a plane of shear, and phi is larger.",
-                      Patterns::Selection(friction_angle_kinds));
+                      Patterns::Selection(std::string("triaxial|plane strain|") + of_plane));
     prm.add_parameter("Dilation angle",
                       dilation_angle,
                       "degrees; dilation angle psi, at most the friction angle.",
@@ -136,7 +120,9 @@ namespace scree
 
   double MohrCoulombParameters::sine() const
   {
-    return sine_of_mohr_coulomb(friction_angle, dilation_angle, friction_angle_kind(angle_kind));
+    const double angle = radians(friction_angle), psi = radians(dilation_angle);
+    return angle_kind != of_plane ? std::sin(angle)
+                                  : std::tan(angle) / (std::cos(psi) + std::sin(psi) * std::tan(angle));
   }
 
 
@@ -167,18 +153,17 @@ namespace scree
     const auto require = [&](const bool is_met, const std::string &entry, const double value, const std::string &text) {
       require_entry(is_met, { subsection, entry, value }, text);
     };
-    require(last.cohesion <= cohesion,
-            "Residual cohesion",
-            last.cohesion,
-            "strength falls from its peak, here " + number_text(cohesion) + " Pa; lower the value.");
-    require(last.friction_angle <= friction_angle,
-            "Residual friction angle",
-            last.friction_angle,
-            "strength falls from its peak, here " + number_text(friction_angle) + " degrees; lower the value.");
-    require(last.dilation_angle <= dilation_angle,
-            "Residual dilation angle",
-            last.dilation_angle,
-            "dilation falls from its peak, here " + number_text(dilation_angle) + " degrees; lower the value.");
+    const auto require_fall =
+        [&](const std::string &entry, const double value, const double peak, const std::string &unit) {
+          require(value <= peak,
+                  "Residual " + entry,
+                  value,
+                  (entry == "dilation angle" ? "dilation" : "strength") + std::string(" falls from its peak, here ") +
+                      number_text(peak) + ' ' + unit + "; lower the value.");
+        };
+    require_fall("cohesion", last.cohesion, cohesion, "Pa");
+    require_fall("friction angle", last.friction_angle, friction_angle, "degrees");
+    require_fall("dilation angle", last.dilation_angle, dilation_angle, "degrees");
     require(last.dilation_angle <= last.friction_angle,
             "Residual dilation angle",
             last.dilation_angle,
@@ -202,7 +187,7 @@ namespace scree
 
   void MohrCoulombParameters::check(const std::string &subsection) const
   {
-    LinearElasticParameters(young_modulus, poisson_ratio).check(subsection);
+    LinearElasticParameters::check(subsection);
     require_entry(dilation_angle <= friction_angle,
                   { subsection, "Dilation angle", dilation_angle },
                   "beyond the friction angle, here " + number_text(friction_angle) +
@@ -301,21 +286,25 @@ namespace scree
 
 
   MohrCoulomb::MohrCoulomb(const MohrCoulombParameters &parameters)
-      : elastic(LinearElasticParameters(parameters.young_modulus, parameters.poisson_ratio))
-      , shear(elastic.shear_modulus())
+      : own_strength(strength_of(parameters))
+      , elastic(parameters)
       , bulk(elastic.bulk_modulus(0))
       , vertex(std::min(parameters.tension_cut_off, parameters.apex()))
       , largest_principal_stress(parameters.tension_cut_off)
-      , on_plane(parameters.sine() * std::cos(radians(parameters.dilation_angle)) /
-                 (1 - parameters.sine() * std::sin(radians(parameters.dilation_angle))))
       , cohesionless(parameters.apex() == 0)
       , inertial_friction(parameters.inertial_friction)
-      , surfaces(strength_of(parameters),
+      , surfaces(own_strength,
                  largest_principal_stress,
                  bulk,
-                 shear,
+                 elastic.shear_modulus,
                  largest_principal_stress < parameters.apex()) // else the cut-off only touches the apex
   {
+    shear_modulus = elastic.shear_modulus;
+    if (cohesionless)
+      plane_friction = own_strength.sine * std::cos(radians(parameters.dilation_angle)) /
+                       (1 - own_strength.sine * own_strength.dilation_sine);
+    grain_diameter      = inertial_friction.diameter();
+    internal_quantities = { { "plastic_shear_strain", "-" } };
   }
 
 
@@ -324,11 +313,13 @@ namespace scree
     PrincipalValues closed = strain; // closes one axis after the other
     std::sort(closed.rbegin(), closed.rend());
     const auto sum    = [](const PrincipalValues &values) { return values[0] + values[1] + values[2]; };
-    const double lame = bulk - 2. / 3. * shear;
-    for (unsigned int n = 1; n <= 3 && lame * sum(closed) + 2 * shear * closed[n - 1] > largest_principal_stress; ++n)
+    const double lame = bulk - 2. / 3. * shear_modulus;
+    for (unsigned int n = 1;
+         n <= 3 && lame * sum(closed) + 2 * shear_modulus * closed[n - 1] > largest_principal_stress;
+         ++n)
       {
         const double rest = std::accumulate(closed.begin() + n, closed.end(), 0.);
-        std::fill_n(closed.begin(), n, (largest_principal_stress - lame * rest) / (n * lame + 2 * shear));
+        std::fill_n(closed.begin(), n, (largest_principal_stress - lame * rest) / (n * lame + 2 * shear_modulus));
       }
     return elastic.energy(closed) + largest_principal_stress * (sum(strain) - sum(closed));
   }
@@ -342,9 +333,10 @@ namespace scree
     double scale = 0;
     for (const double value : wanted_stress)
       scale = std::max(scale, std::abs(value));
-    AssertThrow(yield(wanted_stress) <= 1e-9 * scale,
+    const double outside = yield(wanted_stress, own_strength);
+    AssertThrow(outside <= 1e-9 * scale,
                 ExcMessage("Mohr-Coulomb cannot bear the initial stress, which is outside the yield surface by " +
-                           std::to_string(yield(wanted_stress)) +
+                           std::to_string(outside) +
                            " Pa. Remedy: a K0 of at least (1 - sin phi)/(1 + sin phi), or cohesion."));
     elastic.initialise(wanted_stress, strain, stress, nullptr);
     internal_variables[0] = 0;
@@ -354,11 +346,13 @@ namespace scree
   SofteningMohrCoulomb::SofteningMohrCoulomb(const MohrCoulombParameters &parameters)
       : MohrCoulomb(parameters)
       , softening_strain(parameters.softening.strain)
-      , nonlocal_length(parameters.softening.nonlocal_length)
-      , residual_plane_friction(MohrCoulomb(parameters.residual()).plane_friction())
       , least_limit(1e-9 * parameters.cohesion) // Exponential decay ends there.
   {
     const MohrCoulombParameters last = parameters.residual();
+    plane_friction                   = MohrCoulomb(last).plane_friction; // after much strain
+    internal_quantities.insert(internal_quantities.end(),
+                               { { "softening_strain", "-" }, { "nonlocal_softening_strain", "-" } });
+    nonlocal_variable  = { parameters.softening.nonlocal_length, own_kappa, acting_kappa };
     const auto between = [](const double residual, const double peak) { return Falling{ residual, peak - residual }; };
     tangent            = between(tangent_of_angle(last), tangent_of_angle(parameters));
     dilation_tangent   = between(tangent_of_dilation(last), tangent_of_dilation(parameters));

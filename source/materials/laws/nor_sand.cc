@@ -2,6 +2,8 @@
 #include <scree/input/input_error.h>
 #include <scree/materials/laws/nor_sand.h>
 
+#include <boost/math/tools/toms748_solve.hpp>
+
 using namespace dealii;
 
 namespace scree
@@ -12,23 +14,7 @@ namespace scree
     const RegisterLaw registered_jefferies_been =
         RegisterLaw::of<JefferiesBeen, JefferiesBeenParameters>("Nor-Sand (Jefferies-Been)",
                                                                 "Nor-Sand (Jefferies-Been)");
-
-    constexpr char positive[] = "it must be positive.";
   } // namespace
-
-
-  SandParameters::SandParameters(const double shear_modulus,
-                                 const double compression_index,
-                                 const double reference_pressure,
-                                 const double critical_stress_ratio,
-                                 const double substep_strain)
-      : shear_modulus(shear_modulus)
-      , compression_index(compression_index)
-      , reference_pressure(reference_pressure)
-      , critical_stress_ratio(critical_stress_ratio)
-      , substep_strain(substep_strain)
-  {
-  }
 
 
   void SandParameters::add_limits(ParameterHandler &prm, const std::string &text)
@@ -48,19 +34,12 @@ namespace scree
   }
 
 
-  void SandParameters::check_positive(const std::string &subsection) const
+  void SandParameters::check_positive(const std::string &subsection, const std::vector<LawEntry> &entries) const
   {
-    require_entry(shear_modulus > 0, { subsection, "Shear modulus", shear_modulus }, positive);
-    require_entry(reference_pressure > 0, { subsection, "Reference pressure", reference_pressure }, positive);
-    require_entry(minimum_pressure > 0,
-                  { subsection, "Minimum pressure", minimum_pressure },
-                  std::string(positive) + " 1 Pa does.");
-  }
-
-
-  NorSandParameters::NorSandParameters()
-      : SandParameters(4e6, 0.012, 1, 0.7097, 1e-3)
-  {
+    for (const LawEntry &entry : entries)
+      require_entry(entry.value > 0, { subsection, entry.name, entry.value }, "it must be positive.");
+    require_entry(
+        minimum_pressure > 0, { subsection, "Minimum pressure", minimum_pressure }, "it must be positive. 1 Pa does.");
   }
 
 
@@ -103,10 +82,12 @@ namespace scree
 
   void NorSandParameters::check(const std::string &subsection) const
   {
-    check_positive(subsection);
-    require_entry(swelling_index > 0, { subsection, "Swelling index", swelling_index }, positive);
-    require_entry(
-        critical_stress_ratio > 0, { subsection, "Critical stress ratio M", critical_stress_ratio }, positive);
+    check_positive(subsection,
+                   { modulus(),
+                     { "Reference pressure", reference_pressure },
+                     { "Swelling index", swelling_index },
+                     { "Critical stress ratio M", critical_stress_ratio },
+                     { "Hardening coefficient", hardening_coefficient } });
     require_entry(compression_index > swelling_index,
                   { subsection, "Compression index", compression_index },
                   "it must exceed the swelling index, here " + number_text(swelling_index) + '.');
@@ -114,13 +95,11 @@ namespace scree
                   { subsection, "Potential constant N bar", potential_constant },
                   "beyond the yield constant N, here " + number_text(yield_constant) +
                       ", plastic flow would create energy; lower it.");
-    require_entry(hardening_coefficient > 0, { subsection, "Hardening coefficient", hardening_coefficient }, positive);
-    require_entry(initial_specific_volume > 1,
-                  { subsection, "Initial specific volume", initial_specific_volume },
-                  "1 is rock without pores; sand lies between 1.3 and 2.");
-    require_entry(critical_state_specific_volume > 1,
-                  { subsection, "Critical state specific volume", critical_state_specific_volume },
-                  "1 is rock without pores; sand lies between 1.3 and 2.");
+    for (const LawEntry &volume : { LawEntry{ "Initial specific volume", initial_specific_volume },
+                                    LawEntry{ "Critical state specific volume", critical_state_specific_volume } })
+      require_entry(volume.value > 1,
+                    { subsection, volume.name, volume.value },
+                    "1 is rock without pores; sand lies between 1.3 and 2.");
   }
 
 
@@ -128,12 +107,6 @@ namespace scree
   {
     constexpr double pressure = 1e5; // Pa, of a few metres of soil
     return shear_modulus > pressure / swelling_index ? modulus() : LawEntry{ "Swelling index", swelling_index };
-  }
-
-
-  JefferiesBeenParameters::JefferiesBeenParameters()
-      : SandParameters(80e6, 0.015, 100e3, 1.188, 5e-4)
-  {
   }
 
 
@@ -184,7 +157,12 @@ namespace scree
 
   void JefferiesBeenParameters::check(const std::string &subsection) const
   {
-    check_positive(subsection);
+    check_positive(subsection,
+                   { modulus(),
+                     { "Reference pressure", reference_pressure },
+                     { "State dilatancy", state_dilatancy },
+                     { "Hardening modulus", hardening_modulus },
+                     { "Compression index", compression_index } });
     require_entry(poisson_ratio >= 0 && poisson_ratio < 0.5,
                   { subsection, "Poisson's ratio", poisson_ratio },
                   "write a value from 0 to less than 0.5.");
@@ -197,16 +175,11 @@ namespace scree
     require_entry(volumetric_coupling < 1,
                   { subsection, "Volumetric coupling N", volumetric_coupling },
                   "write a value from 0 to less than 1; sand has 0.2 to 0.45.");
-    require_entry(state_dilatancy > 0, { subsection, "State dilatancy", state_dilatancy }, positive);
-    require_entry(hardening_modulus > 0, { subsection, "Hardening modulus", hardening_modulus }, positive);
-    constexpr double largest_void_ratio = 5;
-    const std::string range             = "write a void ratio above 0 and up to 5.";
-    const auto is_void_ratio            = [](const double value) { return value > 0 && value <= largest_void_ratio; };
-    require_entry(is_void_ratio(initial_void_ratio), { subsection, "Initial void ratio", initial_void_ratio }, range);
-    require_entry(
-        is_void_ratio(critical_void_ratio), { subsection, "Critical void ratio", critical_void_ratio }, range);
-    require_entry(
-        compression_index > 0, { subsection, "Compression index", compression_index }, "it must be positive.");
+    for (const LawEntry &ratio : { LawEntry{ "Initial void ratio", initial_void_ratio },
+                                   LawEntry{ "Critical void ratio", critical_void_ratio } })
+      require_entry(ratio.value > 0 && ratio.value <= 5,
+                    { subsection, ratio.name, ratio.value },
+                    "write a void ratio above 0 and up to 5.");
     require_entry(compression_index * state_dilatancy < 0.9 * critical_stress_ratio,
                   { subsection, "State dilatancy", state_dilatancy },
                   "with the slope " + number_text(compression_index) + " of the critical line it must be below " +
@@ -218,36 +191,18 @@ namespace scree
   SandLaw<Form, Elasticity>::SandLaw(const SandParameters &parameters,
                                      const Elasticity &elastic,
                                      const CriticalLine &line,
-                                     const double initial_volume)
+                                     const double initial_volume,
+                                     const std::string &volume_name)
       : elastic(elastic)
       , line(line)
       , log_minimum_pressure(std::log(parameters.minimum_pressure))
       , initial_overconsolidation(parameters.initial_overconsolidation)
-      , largest_strain(parameters.substep_strain)
       , initial_volume(initial_volume)
   {
-  }
-
-
-  template <typename Form, typename Elasticity>
-  StrainInvariants<double> SandLaw<Form, Elasticity>::invariants(const PrincipalValues &strain)
-  {
-    const double volume = strain[0] + strain[1] + strain[2];
-    double square = 0, third = 1;
-    for (const double value : strain)
-      {
-        square += (value - volume / 3) * (value - volume / 3);
-        third *= value - volume / 3;
-      }
-    return { volume, square, third };
-  }
-
-
-  template <typename Form, typename Elasticity>
-  double SandLaw<Form, Elasticity>::energy(const PrincipalValues &strain) const
-  {
-    const StrainInvariants<double> of_strain = invariants(strain);
-    return elastic.energy(-of_strain.volume, std::sqrt(2. / 3. * of_strain.square));
+    substep_strain      = parameters.substep_strain;
+    initial_porosity    = 1 - 1 / initial_volume;
+    internal_quantities = { { "image_pressure", "Pa" }, { "plastic_shear_strain", "-" } };
+    output_quantities   = { { volume_name, "-" }, { "state_parameter", "-" } };
   }
 
 
@@ -273,13 +228,14 @@ namespace scree
         return;
       }
 
-    stress                                   = wanted_stress;
-    const StrainInvariants<double> of_stress = invariants(stress);
+    stress                   = wanted_stress;
+    PrincipalValues deviator = wanted_stress;
+    const auto of_stress     = take_invariants<double>(deviator);
     const double eta = std::sqrt(1.5 * of_stress.square) / pressure, log_pressure = std::log(pressure);
     elastic.strain_of(log_pressure, pressure, eta, volume, shear);
     const double factor = eta > 0 ? 1.5 * shear / (eta * pressure) : 0.;
     for (unsigned int i = 0; i < 3; ++i)
-      strain[i] = factor * (stress[i] + pressure) - volume / 3;
+      strain[i] = factor * deviator[i] - volume / 3;
     internal_variables[0] = std::exp(form().image_through(
         { 0, of_stress.square / (pressure * pressure), of_stress.third / (pressure * pressure * pressure) },
         log_pressure,
@@ -301,39 +257,17 @@ namespace scree
 
   namespace
   {
-    /// A root of `f` between `positive` and `negative`, named after the sign of f there, to the last digit: false
-    /// position with Illinois weights (Dowell & Jarratt 1971), every third step a bisection, which cannot stall.
+    /// A root of `f` between `a` and `b`, to the last digit (@source{alefeld1995}); `b` if f does not change its sign.
     template <typename Function>
-    double find_root(const Function &f, double positive, double negative)
+    double find_root(const Function &f, const double a, const double b)
     {
-      double f_positive = f(positive), f_negative = f(negative);
-      int last_side = 0;
-      for (unsigned int i = 0; i < 200; ++i)
-        {
-          double x = (positive * f_negative - negative * f_positive) / (f_negative - f_positive);
-          if (i % 3 == 2 || !(x > std::min(positive, negative) && x < std::max(positive, negative)))
-            x = 0.5 * (positive + negative);
-          if (x == positive || x == negative)
-            break;
-          const double f_x = f(x);
-          if (std::abs(f_x) <= 1e-14)
-            return x;
-          const int side = f_x > 0 ? 1 : -1;
-          if (side > 0)
-            {
-              positive   = x;
-              f_positive = f_x;
-              f_negative *= side == last_side ? 0.5 : 1;
-            }
-          else
-            {
-              negative   = x;
-              f_negative = f_x;
-              f_positive *= side == last_side ? 0.5 : 1;
-            }
-          last_side = side;
-        }
-      return negative;
+      std::uintmax_t most_steps = 200;
+      const double low = std::min(a, b), high = std::max(a, b), f_low = f(low), f_high = f(high);
+      if (!(std::min(f_low, f_high) <= 0. && std::max(f_low, f_high) >= 0.))
+        return b;
+      const auto root = boost::math::tools::toms748_solve(
+          f, low, high, f_low, f_high, boost::math::tools::eps_tolerance<double>(), most_steps);
+      return 0.5 * (root.first + root.second);
     }
 
 
@@ -343,21 +277,6 @@ namespace scree
       return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b)));
     }
 
-
-    /// Where `is_low` ends between `low` and `high`.
-    template <typename Function>
-    double bisect(const Function &is_low, double low, double high)
-    {
-      constexpr unsigned int largest_number_of_steps = 200;
-      for (unsigned int i = 0; i < largest_number_of_steps; ++i)
-        {
-          const double middle = 0.5 * (low + high);
-          if (middle == low || middle == high)
-            break;
-          (is_low(middle) ? low : high) = middle;
-        }
-      return 0.5 * (low + high);
-    }
   } // namespace
 
 
@@ -367,7 +286,8 @@ namespace scree
                 { parameters.critical_state_specific_volume,
                   parameters.compression_index,
                   std::log(parameters.reference_pressure) },
-                parameters.initial_specific_volume)
+                parameters.initial_specific_volume,
+                "specific_volume")
       , parameters(parameters)
       , exponent(parameters.yield_constant / (1 - parameters.yield_constant))
       , inverse_exponent(exponent > 0 ? 1 / exponent : 0)
@@ -376,6 +296,8 @@ namespace scree
       , limit_factor(parameters.dilatancy_multiplier * (1 - parameters.potential_constant) /
                      (1 - parameters.yield_constant) * parameters.yield_constant / parameters.critical_stress_ratio)
   {
+    shear_modulus  = parameters.shear_modulus;
+    plane_friction = parameters.critical_stress_ratio / std::sqrt(3.);
   }
 
 
@@ -477,15 +399,21 @@ namespace scree
                   parameters.modulus_exponent,
                   parameters.reference_pressure },
                 { 1 + parameters.critical_void_ratio, parameters.compression_index, std::log(1e3) },
-                1 + parameters.initial_void_ratio)
+                1 + parameters.initial_void_ratio,
+                "void_ratio")
       , parameters(parameters)
       , chi(parameters.state_dilatancy /
             (1. - parameters.compression_index * parameters.state_dilatancy / parameters.critical_stress_ratio))
   {
+    // The constant part of the modulus of waves, see bulk_modulus().
+    shear_modulus = elastic.constant_shear;
+    // With M of theta = 0: the flow keeps the volume there, and the stress across the plane is the mean.
+    const double M = parameters.critical_stress_ratio;
+    plane_friction = (M - M * M / (3. + M) * std::sqrt(0.5)) / std::sqrt(3.);
   }
 
 
-  bool JefferiesBeen::find_vertex(const Trial<double> &trial, Root<double> &root) const
+  bool JefferiesBeen::find_vertex(const Trial<double> &trial, Returned<double> &root) const
   {
     // q = 0 and r = 1: the multiplier is free, and exceeds the change of elastic shear strain.
     double multiplier    = 0;
@@ -499,19 +427,19 @@ namespace scree
     const double low = std::min(trial.log_image + 1., isotropic) - 1e-9, high = isotropic + 1e-9;
     if (!(hardening(low) <= 0. && hardening(high) >= 0.))
       return false;
-    root = { bisect([&](const double log_pressure) { return hardening(log_pressure) <= 0.; }, low, high), 1. };
+    root = { find_root(hardening, low, high), 1., 0. };
     hardening(root.log_pressure);
     return multiplier >= trial.shear_strain * (1. - 1e-9);
   }
 
 
-  bool JefferiesBeen::continue_to(const Trial<double> &trial, Root<double> &root) const
+  bool JefferiesBeen::continue_to(const Trial<double> &trial, Returned<double> &root) const
   {
     // From the yield surface at the trial pressure, whose root is known.
-    constexpr unsigned int most_parts = 256;
+    constexpr unsigned int most_parts = 1 << 16;
     const Image<double> old           = image(trial.volume, trial.log_image, trial.lode_ratio);
     const double r                    = std::min(trial.log_pressure - trial.log_image, 0.99);
-    const Root<double> start{ trial.log_image + r, r };
+    const Returned<double> start{ trial.log_image + r, r, 0. };
     const double eta = old.ratio * (1. - r), X = elastic.opening_at(start.log_pressure, eta);
     const double shear = eta * X / (3. * elastic.g);
     for (unsigned int parts = 4; parts <= most_parts; parts *= 4)
@@ -531,77 +459,33 @@ namespace scree
   }
 
 
-  bool JefferiesBeen::search_ratio(const Trial<double> &trial, Root<double> &root) const
-  {
-    // Where the flow rule holds, p_i is above what the hardening law gives without plastic strain, and below it at
-    // r = 1, as there is no root at the vertex.
-    Residual<double> now;
-    const auto on_flow_rule = [&](const double log_ratio) {
-      const auto is_low = [&](const double log_pressure) {
-        now = residual<Hardening::law, double>(trial, trial.X, trial.shear_strain, log_pressure, log_ratio);
-        return now.first > 0.;
-      };
-      return bisect(is_low, trial.log_pressure - 40., trial.log_pressure + 12.);
-    };
-    const auto is_inside = [&](const double log_ratio) {
-      const Image<double> i = image(trial.volume, trial.log_pressure - log_ratio, trial.lode_ratio);
-      return i.ratio * (1. - log_ratio) > trial.eta;
-    };
-    double low = -1.;
-    while (!is_inside(low) && low > -1e6)
-      low *= 2.;
-    low                 = bisect(is_inside, low, 1.);
-    const auto is_above = [&](const double log_ratio) {
-      on_flow_rule(log_ratio);
-      return now.second > 0.;
-    };
-    root.log_ratio    = bisect(is_above, low, 1.);
-    root.log_pressure = on_flow_rule(root.log_ratio);
-    now = residual<Hardening::law, double>(trial, trial.X, trial.shear_strain, root.log_pressure, root.log_ratio);
-    return std::isfinite(root.log_pressure) && now.first * now.first + now.second * now.second < 1e-12;
-  }
-
-
-  bool JefferiesBeen::search_cap(const Trial<double> &trial, Root<double> &root) const
+  JefferiesBeen::Returned<double> JefferiesBeen::on_cap(const Trial<double> &trial) const
   {
     // All is explicit in ln p_i. Below the smallest value there is no stress; that is an answer, too.
     const auto at = [&](const double log_image) {
-      const Image<double> i = image(trial.volume, log_image, trial.lode_ratio);
-      return Root<double>{ log_image - i.limit, -i.limit };
+      const double limit = image(trial.volume, log_image, trial.lode_ratio).limit;
+      return Returned<double>{ log_image - limit, -limit, 0. };
     };
-    const auto is_low = [&](const double log_image) {
-      const Root<double> cap = at(log_image);
+    const auto beyond = [&](const double log_image) {
+      const Returned<double> cap = at(log_image);
       return residual<Hardening::cap, double>(trial, trial.X, trial.shear_strain, cap.log_pressure, cap.log_ratio)
-                 .first > 0.;
+          .first;
     };
     const double low = log_minimum_pressure - 4., high = std::max(trial.log_pressure, trial.log_image) + 12.;
-    root = at(is_low(low) ? bisect(is_low, low, high) : low);
-    return std::isfinite(root.log_pressure);
+    return at(beyond(low) > 0. ? find_root(beyond, low, high) : low);
   }
 
 
   JefferiesBeen::Returned<double> JefferiesBeen::search(const Trial<double> &trial, LawResponse<double> &response) const
   {
-    Root<double> root{ trial.log_pressure, std::min(trial.log_pressure - trial.log_image, 0.9) };
-    const Root<double> start = root;
-    if (find_vertex(trial, root))
-      {
-        response.is_vertex = true;
-        return returned_to(trial, root);
-      }
-    if (!continue_to(trial, root) && !search_ratio(trial, root))
-      {
-        response.is_unresolved = true;
-        return returned_to(trial, start);
-      }
-    if (!is_beyond_cap(trial, root))
-      return returned_to(trial, root);
-    Root<double> on_cap = root;
-    if (newton_to<Hardening::cap, double>(trial, trial.X, trial.shear_strain, true, on_cap) ||
-        search_cap(trial, on_cap))
-      return returned_to(trial, on_cap);
-    response.is_unresolved = true;
-    return returned_to(trial, root);
+    Returned<double> root;
+    response.is_vertex     = find_vertex(trial, root);
+    response.is_unresolved = !response.is_vertex && !continue_to(trial, root);
+    if (response.is_unresolved)
+      root = { trial.log_pressure, std::min(trial.log_pressure - trial.log_image, 0.9), 0. };
+    else if (!response.is_vertex && is_beyond_cap(trial, root))
+      root = on_cap(trial);
+    return with_ratio(trial, root);
   }
 
 

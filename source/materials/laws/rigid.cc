@@ -28,14 +28,9 @@ namespace scree
     struct Rigid : ConstitutiveLaw
     {
       static constexpr unsigned int n_internal_variables = 0;
-      static constexpr bool is_elastic                   = true;
 
       explicit Rigid(const RigidEntries &)
       {
-      }
-      double shear_modulus() const
-      {
-        return 0.;
       }
       double bulk_modulus(const double) const
       {
@@ -58,10 +53,6 @@ namespace scree
       {
         strain.fill(0.);
         stress.fill(0.);
-      }
-      static std::vector<Quantity> internal_quantities()
-      {
-        return {};
       }
     };
 

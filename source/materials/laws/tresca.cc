@@ -15,11 +15,10 @@ namespace scree
     MohrCoulombParameters mohr_coulomb(const TrescaParameters &parameters)
     {
       MohrCoulombParameters law;
-      law.young_modulus   = parameters.young_modulus;
-      law.poisson_ratio   = parameters.poisson_ratio;
-      law.friction_angle  = 0;
-      law.cohesion        = 1; // not read: each point has its own
-      law.tension_cut_off = parameters.tension_cut_off;
+      static_cast<LinearElasticParameters &>(law) = parameters;
+      law.friction_angle                          = 0;
+      law.cohesion                                = 1; // not read: each point has its own
+      law.tension_cut_off                         = parameters.tension_cut_off;
       return law;
     }
 
@@ -31,22 +30,6 @@ namespace scree
       text.precision(17);
       text << value;
       return text.str();
-    }
-
-
-    PlaceVariable strength_of_place(const TrescaParameters &parameters, const double shear, const unsigned int number)
-    {
-      PlaceVariable variable;
-      variable.entry      = parameters.strength_entry;
-      variable.expression = parameters.strength;
-      variable.gradient   = parameters.strength_gradient;
-      variable.number     = number;
-      if (parameters.sensitivity > 1)
-        variable.largest = shear * parameters.remoulding_strain / (3 * (1 - 1 / parameters.sensitivity));
-      variable.remedy =
-          "strength falls faster with strain than elastic stress can. Write a larger \"Remoulding strain\" "
-          "or \"Young's modulus\".";
-      return variable;
     }
   } // namespace
 
@@ -103,7 +86,7 @@ namespace scree
 
   void TrescaParameters::check(const std::string &subsection) const
   {
-    LinearElasticParameters(young_modulus, poisson_ratio).check(subsection);
+    LinearElasticParameters::check(subsection);
     require_entry(
         !strength.empty(), { subsection, "Undrained strength", strength }, "write a strength in Pa, such as 10e3.");
     const TrescaParameters defaults;
@@ -155,7 +138,7 @@ namespace scree
 
   void HerschelBulkleyParameters::check(const std::string &subsection) const
   {
-    LinearElasticParameters(young_modulus, poisson_ratio).check(subsection);
+    LinearElasticParameters::check(subsection);
     require_entry(
         yield_stress > 0, { subsection, "Yield stress", yield_stress }, "a positive stress is needed, in Pa.");
     require_entry(consistency > 0 || index == HerschelBulkleyParameters().index,
@@ -190,12 +173,22 @@ namespace scree
   Tresca::Tresca(const TrescaParameters &parameters)
       : MohrCoulomb(mohr_coulomb(parameters))
       , rate_of_strength(parameters.rate_increase, parameters.reference_rate, parameters.consistency, parameters.index)
-      , variable(strength_of_place(parameters, shear, of_place))
       , scale(1 / parameters.reduction)
-      , nonlocal_length(parameters.nonlocal_length)
       , residual(1 / parameters.sensitivity)
       , decay(parameters.sensitivity > 1 ? 3 / parameters.remoulding_strain : 0)
   {
+    internal_quantities.insert(
+        internal_quantities.end(),
+        { { "softening_strain", "-" }, { "nonlocal_softening_strain", "-" }, { "undrained_strength", "Pa" } });
+    nonlocal_variable         = { parameters.nonlocal_length, own_kappa, acting_kappa };
+    place_variable.entry      = parameters.strength_entry;
+    place_variable.expression = parameters.strength;
+    place_variable.gradient   = parameters.strength_gradient;
+    place_variable.number     = of_place;
+    if (parameters.sensitivity > 1)
+      place_variable.largest = shear_modulus * parameters.remoulding_strain / (3 * (1 - 1 / parameters.sensitivity));
+    place_variable.remedy = "strength falls faster with strain than elastic stress can. Write a larger \"Remoulding "
+                            "strain\" or \"Young's modulus\".";
   }
 
 

@@ -121,8 +121,12 @@ void test_returns(const std::string &name, const JefferiesBeenParameters &parame
       if (scale == 0)
         continue;
       dissipation = std::min(dissipation, lost / scale);
-      yield       = std::max(yield, law.yield(strain, internal, J));
-      cap         = std::max(cap, law.beyond_cap(strain, internal, J));
+      // The trial state has the image pressure after the cap.
+      const auto now      = law.trial_of(strain, J, internal);
+      log_image           = std::log(internal[0]);
+      const auto of_image = law.image(now.volume, log_image, now.lode_ratio);
+      yield               = std::max(yield, now.eta - of_image.ratio * (1. - now.log_pressure + log_image));
+      cap                 = std::max(cap, log_image - now.log_pressure - of_image.limit);
     }
   require(report.n_unresolved == 0, name + ": unresolved " + std::to_string(report.n_unresolved));
   require(yield < 1e-8, name + ": outside the yield surface by " + std::to_string(yield));

@@ -38,7 +38,7 @@ double dilation_error(const PrincipalValues &trial, const PrincipalValues &strai
 void test_random(const std::string &name, const MohrCoulombParameters &parameters, RandomNumbers &random)
 {
   const MohrCoulomb law(parameters);
-  const double bulk = law.bulk_modulus(0), shear = law.shear_modulus();
+  const double bulk = law.bulk_modulus(0), shear = law.shear_modulus;
   const double sine    = std::sin(parameters.dilation_angle * numbers::PI / 180);
   double largest_yield = 0, largest_again = 0, largest_dilation = 0, largest_stress_error = 0, largest_open_error = 0;
   unsigned int n_elastic = 0, n_faces = 0, n_vertices = 0;
@@ -52,7 +52,7 @@ void test_random(const std::string &name, const MohrCoulombParameters &parameter
       [&](RandomReturn &point) {
         n_elastic += !point.is_plastic;
         n_vertices += point.is_at_vertex;
-        largest_yield = std::max(largest_yield, law.yield(point.stress) / point.scale);
+        largest_yield = std::max(largest_yield, law.yield(point.stress, law.own_strength) / point.scale);
         require(point.internal[0] >= 0, name + ": plastic shear strain is negative");
         if (point.is_at_vertex)
           return;
@@ -292,7 +292,7 @@ double error_of_shear(const unsigned int n)
 {
   const MohrCoulombParameters parameters = softening_clay();
   const SofteningMohrCoulomb law(parameters);
-  const double G = law.shear_modulus(), residual = 5e3, fall = 1.5e4;
+  const double G = law.shear_modulus, residual = 5e3, fall = 1.5e4;
   PrincipalValues strain = { { -0.01, -0.01, -0.01 } }, stress; // the law has no friction
   double internal[3] = {}, largest = 0, exact = 0;
   UpdateReport report;

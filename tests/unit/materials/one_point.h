@@ -132,7 +132,7 @@ private:
         for (unsigned int j = 0; j < dim; ++j)
           largest_change = std::max(largest_change, std::abs(change[i][j]));
       }
-    const auto n           = static_cast<unsigned int>(std::max(1., std::ceil(largest_change / law.substep_strain())));
+    const auto n           = static_cast<unsigned int>(std::max(1., std::ceil(largest_change / law.substep_strain)));
     const auto n_separated = report.n_separated; // A point counts once, by its state in the end.
     for (unsigned int k = 0; k < n; ++k)
       {

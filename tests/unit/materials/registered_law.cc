@@ -61,7 +61,7 @@ void run()
   const auto plane = make_material<2>(parameters);
   const auto solid = make_material<3>(parameters);
   out << '\n' << parameters.modulus_text("Soil") << '\n';
-  out << 1e-6 * plane->shear_modulus() << ' ' << 1e-6 * solid->shear_modulus() << ' '
+  out << 1e-6 * plane->shear_modulus << ' ' << 1e-6 * solid->shear_modulus << ' '
       << 1e-6 * solid->initial_bulk_modulus(0.) << '\n';
   prm.parse_input_from_string("subsection Moduli\n set Bulk modulus = 0\nend");
   try

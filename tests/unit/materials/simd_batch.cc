@@ -3,7 +3,6 @@
 // Functions of a batch: to rounding, lane by lane whatever the other lanes hold, and as the C library's at odd input.
 #include "../test.h"
 
-#include <scree/simd/pair.h>
 #include <scree/simd/records.h>
 
 namespace test_simd_batch

@@ -72,7 +72,7 @@ void test_random(const std::string &name, const TrescaParameters &parameters, Ra
           return;
         ++n_sheared;
         // Plastic shear is a difference of stresses, which bounds what is known of it.
-        const double found = shear_stress(point.stress), rounding = 1e-14 * scale / law.shear_modulus();
+        const double found = shear_stress(point.stress), rounding = 1e-14 * scale / law.shear_modulus;
         const auto at = [&](const double shear) {
           return strength_at(parameters, strength, std::max(0., shear) / point.time_step);
         };
@@ -112,7 +112,7 @@ shear(const TrescaParameters &parameters, const double gamma, const unsigned int
 double error_of_softening(const unsigned int n)
 {
   const TrescaParameters parameters = sensitive_clay();
-  const double gamma = 0.5, G = Tresca(parameters).shear_modulus(), peak = 2e4, St = parameters.sensitivity;
+  const double gamma = 0.5, G = Tresca(parameters).shear_modulus, peak = 2e4, St = parameters.sensitivity;
   const std::vector<double> found = shear(parameters, gamma, n, 0);
   double largest = 0, exact = 0;
   for (unsigned int step = 0; step < n; ++step)
@@ -149,7 +149,7 @@ void test_rates()
       expect(shear(mud(2e3, index), 100 * rate, 10000, rate).back(), 6e3 + 2e3 * std::pow(rate, index), 1e-3, "mud");
   // Viscous beyond all steps: elastic.
   const TrescaParameters stiff = mud(1e15, 1);
-  expect(shear(stiff, 0.2, 10, 1).back(), Tresca(stiff).shear_modulus() * 0.2, 1e-3, "stiff mud");
+  expect(shear(stiff, 0.2, 10, 1).back(), Tresca(stiff).shear_modulus * 0.2, 1e-3, "stiff mud");
 }
 
 
@@ -159,7 +159,7 @@ void test_place()
   parameters.strength          = "1e3 + 2e3*(5 - y)";
   parameters.strength_gradient = 100;
   double internal[4]           = {};
-  const PlaceVariableValues<2> values(Tresca(parameters).place_variable(), "Soil/Tresca");
+  const PlaceVariableValues<2> values(Tresca(parameters).place_variable, "Soil/Tresca");
   values.set(Point<2>(1., 2.), 3., internal);
   expect(internal[of_place], 7300, 1e-9, "strength of the place");
   parameters.divide_strength(1.6);

@@ -270,7 +270,7 @@ double test(const std::string &basis,
       density,
       density,
       make_material<dim>(material),
-      PropertyLayout<dim>(one_by_one->internal_quantities().size(), transfer_parameters.carries_affine_field()),
+      PropertyLayout<dim>(one_by_one->internal_quantities.size(), transfer_parameters.carries_affine_field()),
       grid.triangulation(),
       grid.mapping());
   seed(body, seeding, { grid.triangulation(), grid.cell_size() });

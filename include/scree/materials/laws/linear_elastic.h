@@ -7,7 +7,7 @@
 
 namespace scree
 {
-  /// Entries of subsection "Linear elastic".
+  /// Entries of subsection "Linear elastic", and the first ones of laws that add yielding.
   struct LinearElasticParameters : LawEntries
   {
     /// @param young_modulus E, Pa
@@ -36,20 +36,13 @@ namespace scree
   {
   public:
     static constexpr unsigned int n_internal_variables = 0;    ///< the law has none
-    static constexpr bool is_elastic                   = true; ///< the law has no plastic strain
     static constexpr bool in_invariants                = true; ///< see ConstitutiveLaw
 
     /// Computes bulk and shear modulus, Pa, from E and nu.
     explicit LinearElastic(const LinearElasticParameters &parameters)
-        : shear(parameters.young_modulus / (2 * (1 + parameters.poisson_ratio)))
-        , bulk(parameters.young_modulus / (3 * (1 - 2 * parameters.poisson_ratio)))
+        : bulk(parameters.young_modulus / (3 * (1 - 2 * parameters.poisson_ratio)))
     {
-    }
-
-    /// G, Pa.
-    double shear_modulus() const
-    {
-      return shear;
+      shear_modulus = parameters.young_modulus / (2 * (1 + parameters.poisson_ratio));
     }
 
     /// K, Pa, at any pressure.
@@ -66,18 +59,15 @@ namespace scree
       InvariantResponse<Number> response{};
       response.bulk_modulus  = simd::broadcast<Number>(bulk);
       response.mean_stress   = bulk * strain.volume;
-      response.stress_factor = simd::broadcast<Number>(2. * shear);
+      response.stress_factor = simd::broadcast<Number>(2. * shear_modulus);
       return response;
     }
 
     /// J per m^3 of reference volume.
-    double energy(const PrincipalValues &strain) const
+    double energy(PrincipalValues strain) const
     {
-      const double volume_strain = strain[0] + strain[1] + strain[2];
-      double energy              = 0.5 * bulk * volume_strain * volume_strain;
-      for (const double value : strain)
-        energy += shear * (value - volume_strain / 3) * (value - volume_strain / 3);
-      return energy;
+      const auto [volume, square, third] = take_invariants<double>(strain);
+      return 0.5 * bulk * volume * volume + shear_modulus * square;
     }
 
     /// See Material::initialise().
@@ -87,17 +77,11 @@ namespace scree
       stress            = wanted_stress;
       const double mean = (stress[0] + stress[1] + stress[2]) / 3;
       for (unsigned int i = 0; i < 3; ++i)
-        strain[i] = mean / (3 * bulk) + (stress[i] - mean) / (2 * shear);
-    }
-
-    /// No internal variables.
-    static std::vector<Quantity> internal_quantities()
-    {
-      return {};
+        strain[i] = mean / (3 * bulk) + (stress[i] - mean) / (2 * shear_modulus);
     }
 
   private:
-    const double shear, bulk; // Pa
+    const double bulk; // Pa
   };
 } // namespace scree
 

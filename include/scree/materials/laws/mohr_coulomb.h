@@ -9,32 +9,8 @@
 
 namespace scree
 {
-  /// Tests that a friction angle can come from.
-  enum class FrictionAngleKind
-  {
-    triaxial,     ///< (s1 - s3)/(s1 + s3) in triaxial compression
-    plane_strain, ///< the same in plane strain
-    direct_shear  ///< tau/sigma on a plane: shear box, angle of repose, friction of a base
-  };
-
-  /// Values of entry "Friction angle kind".
-  constexpr char friction_angle_kinds[] = "triaxial|plane strain|direct shear or repose";
-
-  /// An angle in radians.
-  double radians(const double degrees);
-
   /// The angle whose tangent is that of `degrees` over `factor`, degrees.
   double divided_angle(const double degrees, const double factor);
-
-  /// The kind of that name. Throws dealii::ExcMessage if there is none.
-  FrictionAngleKind friction_angle_kind(const std::string &name);
-
-  /// sin(phi) of Mohr-Coulomb, which has one angle in triaxial compression and in plane strain. On a plane that shears
-  /// without strain along it, tau/sigma = sin(phi) cos(psi)/(1 - sin(phi) sin(psi)) (@source{davis1968}), which
-  /// is solved for sin(phi).
-  /// @param angle degrees
-  /// @param dilation_angle psi, degrees
-  double sine_of_mohr_coulomb(const double angle, const double dilation_angle, const FrictionAngleKind kind);
 
 
   /// Entries of a law with friction that grows with the rate of shear.
@@ -117,15 +93,11 @@ namespace scree
                      PrincipalNumbers<Number> &strain) const
     {
       PrincipalNumbers<Number> change;
-      Number volume = simd::broadcast<Number>(0.), square = simd::broadcast<Number>(0.);
       for (unsigned int i = 0; i < 3; ++i)
-        {
-          change[i] = trial[i] - strain[i];
-          volume += change[i];
-        }
-      for (const Number &value : change)
-        square += (value - volume * (1. / 3.)) * (value - volume * (1. / 3.));
-      const Number part = kept_part<Number>(
+        change[i] = trial[i] - strain[i];
+      PrincipalNumbers<Number> deviator = change;
+      const Number square               = take_invariants<Number>(deviator).square;
+      const Number part                 = kept_part<Number>(
           simd::sqrt<Number>(2. * square), shear_modulus, pressure, step.grain_density, step.time_step);
       const Number taken = simd::select<Number>(is_plastic, part, simd::broadcast<Number>(0.));
       for (unsigned int i = 0; i < 3; ++i)
@@ -173,10 +145,8 @@ namespace scree
 
 
   /// Entries of subsection "Mohr-Coulomb"; angles in degrees.
-  struct MohrCoulombParameters : LawEntries
+  struct MohrCoulombParameters : LinearElasticParameters
   {
-    double young_modulus   = 1e6;                 ///< E, Pa
-    double poisson_ratio   = 0.3;                 ///< nu, -
     double friction_angle  = 30;                  ///< phi, degrees
     double dilation_angle  = 0;                   ///< psi, degrees
     double cohesion        = 0;                   ///< c, Pa
@@ -185,7 +155,9 @@ namespace scree
     InertialFrictionParameters inertial_friction; ///< of grains that flow
     SofteningParameters softening;                ///< strength that falls with plastic shear
 
-    /// sin(phi) of the law.
+    /// sin(phi) of the law, which has one angle in triaxial compression and in plane strain. On a plane that shears
+    /// without strain along it, tau/sigma = sin(phi) cos(psi)/(1 - sin(phi) sin(psi)) (@source{davis1968}), which is
+    /// solved for sin(phi).
     double sine() const;
 
     /// Isotropic tension that friction and cohesion allow, c cot(phi), Pa.
@@ -196,10 +168,6 @@ namespace scree
 
     void add_parameters(dealii::ParameterHandler &prm) override;
     void check(const std::string &subsection) const override;
-    LawEntry modulus() const override
-    {
-      return { "Young's modulus", young_modulus };
-    }
 
     /// Divides tan(phi), c and the tension cut-off; psi stays, but is at most phi.
     bool divide_strength(const double factor) override;
@@ -299,15 +267,58 @@ namespace scree
     /// stay in it. The strain of cut-offs is no plastic strain.
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline void
-    return_sorted(PrincipalNumbers<Number> &stress, PrincipalNumbers<Number> &plastic, simd::Mask<Number> &todo) const;
-
-    /// Largest of all yield functions, Pa; negative inside.
-    template <typename Number>
-    DEAL_II_ALWAYS_INLINE inline Number yield(const Number &largest, const Number &smallest) const
+    return_sorted(PrincipalNumbers<Number> &stress, PrincipalNumbers<Number> &plastic, simd::Mask<Number> &todo) const
     {
-      const Surface &shear = surfaces[f13];
-      return simd::max<Number>(shear.normal[0] * largest + shear.normal[2] * smallest - shear.limit,
-                               largest - surfaces[cut_1].limit);
+      const PrincipalNumbers<Number> trial = stress;
+      const Number zero                    = simd::broadcast<Number>(0.);
+      const Number tolerance =
+          1e-12 * simd::max<Number>(surfaces[f13].limit + zero,
+                                    simd::max<Number>(simd::abs<Number>(trial[0]), simd::abs<Number>(trial[2])));
+      for_each_set([&](const unsigned int number, const auto &set) {
+        if (!simd::any(todo))
+          return;
+        constexpr unsigned int n = std::tuple_size_v<std::decay_t<decltype(set)>>;
+        System of_points;
+        if constexpr (!is_constant)
+          of_points = system_of(set);
+        const System &system = is_constant ? systems[number] : of_points;
+        Number multiplier[n];
+        for (unsigned int a = 0; a < n; ++a)
+          {
+            multiplier[a] = excess<Number>(surfaces[set[a]], trial);
+            for (unsigned int b = 0; b < a; ++b)
+              multiplier[a] -= system.factors[a][b] * multiplier[b];
+          }
+        for (unsigned int a = n; a-- > 0;)
+          {
+            for (unsigned int b = a + 1; b < n; ++b)
+              multiplier[a] -= system.factors[a][b] * multiplier[b];
+            multiplier[a] = multiplier[a] * system.factors[a][a];
+          }
+
+        simd::Mask<Number> is_found       = todo;
+        PrincipalNumbers<Number> returned = trial, flowed;
+        flowed.fill(zero);
+        for (unsigned int a = 0; a < n; ++a)
+          {
+            const Surface &surface = surfaces[set[a]];
+            is_found               = is_found & (multiplier[a] * shear >= -1. * tolerance);
+            for (unsigned int i = 0; i < 3; ++i)
+              {
+                returned[i] -= multiplier[a] * surface.relaxation[i];
+                if (set[a] < cut_1)
+                  flowed[i] += multiplier[a] * surface.flow[i];
+              }
+          }
+        for (const Surface &surface : surfaces)
+          is_found = is_found & (excess<Number>(surface, returned) <= tolerance);
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            stress[i]  = simd::select<Number>(is_found, returned[i], stress[i]);
+            plastic[i] = simd::select<Number>(is_found, flowed[i], plastic[i]);
+          }
+        todo = todo & !is_found;
+      });
     }
 
   private:
@@ -409,65 +420,6 @@ namespace scree
   };
 
 
-  template <typename S>
-  template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline void MohrCoulombSurfaces<S>::return_sorted(PrincipalNumbers<Number> &stress,
-                                                                          PrincipalNumbers<Number> &plastic,
-                                                                          simd::Mask<Number> &todo) const
-  {
-    const PrincipalNumbers<Number> trial = stress;
-    const Number zero                    = simd::broadcast<Number>(0.);
-    const Number tolerance =
-        1e-12 * simd::max<Number>(surfaces[f13].limit + zero,
-                                  simd::max<Number>(simd::abs<Number>(trial[0]), simd::abs<Number>(trial[2])));
-    for_each_set([&](const unsigned int number, const auto &set) {
-      if (!simd::any(todo))
-        return;
-      constexpr unsigned int n = std::tuple_size_v<std::decay_t<decltype(set)>>;
-      System of_points;
-      if constexpr (!is_constant)
-        of_points = system_of(set);
-      const System &system = is_constant ? systems[number] : of_points;
-      Number multiplier[n];
-      for (unsigned int a = 0; a < n; ++a)
-        {
-          multiplier[a] = excess<Number>(surfaces[set[a]], trial);
-          for (unsigned int b = 0; b < a; ++b)
-            multiplier[a] -= system.factors[a][b] * multiplier[b];
-        }
-      for (unsigned int a = n; a-- > 0;)
-        {
-          for (unsigned int b = a + 1; b < n; ++b)
-            multiplier[a] -= system.factors[a][b] * multiplier[b];
-          multiplier[a] = multiplier[a] * system.factors[a][a];
-        }
-
-      simd::Mask<Number> is_found       = todo;
-      PrincipalNumbers<Number> returned = trial, flowed;
-      flowed.fill(zero);
-      for (unsigned int a = 0; a < n; ++a)
-        {
-          const Surface &surface = surfaces[set[a]];
-          is_found               = is_found & (multiplier[a] * shear >= -1. * tolerance);
-          for (unsigned int i = 0; i < 3; ++i)
-            {
-              returned[i] -= multiplier[a] * surface.relaxation[i];
-              if (set[a] < cut_1)
-                flowed[i] += multiplier[a] * surface.flow[i];
-            }
-        }
-      for (const Surface &surface : surfaces)
-        is_found = is_found & (excess<Number>(surface, returned) <= tolerance);
-      for (unsigned int i = 0; i < 3; ++i)
-        {
-          stress[i]  = simd::select<Number>(is_found, returned[i], stress[i]);
-          plastic[i] = simd::select<Number>(is_found, flowed[i], plastic[i]);
-        }
-      todo = todo & !is_found;
-    });
-  }
-
-
   /// Perfectly plastic Mohr-Coulomb with tension cut-off on Hencky elasticity (@source{desouzaneto2008}, 8.2).
   ///
   /// With sorted principal Kirchhoff stresses, f_ij = (1 + sin phi) tau_i - (1 - sin phi) tau_j - 2 c cos phi <= 0,
@@ -488,12 +440,6 @@ namespace scree
     /// Builds the yield surfaces, and the sets of them that a return can meet.
     explicit MohrCoulomb(const MohrCoulombParameters &parameters);
 
-    /// Pa.
-    double shear_modulus() const
-    {
-      return shear;
-    }
-
     /// Pa, at any pressure.
     double bulk_modulus(const double) const
     {
@@ -503,24 +449,27 @@ namespace scree
     /// J per m^3 of reference volume: elastic energy, and the work of the cut-off in what is open.
     double energy(const PrincipalValues &strain) const;
 
-    /// tau/sigma on a plane of shear, sin(phi) cos(psi)/(1 - sin(phi) sin(psi)); infinite with cohesion.
-    double plane_friction() const
-    {
-      return cohesionless ? on_plane : std::numeric_limits<double>::infinity();
-    }
-
-    /// See Material::grain_diameter().
-    double grain_diameter() const
-    {
-      return inertial_friction.is_active() ? inertial_friction.diameter() : 0;
-    }
-
     /// See ConstitutiveLaw.
     template <typename Number>
-    LawResponse<Number> respond(const LawStep<Number> &step,
-                                PrincipalNumbers<Number> &strain,
-                                Number *internal_variables,
-                                PrincipalNumbers<Number> &stress) const;
+    DEAL_II_ALWAYS_INLINE inline LawResponse<Number> respond(const LawStep<Number> &step,
+                                                             PrincipalNumbers<Number> &strain,
+                                                             Number *internal_variables,
+                                                             PrincipalNumbers<Number> &stress) const
+    {
+      stress = stress_of(strain);
+      LawResponse<Number> response{};
+      response.bulk_modulus     = simd::broadcast<Number>(bulk);
+      response.is_plastic       = yield(stress, own_strength) > 0.;
+      const auto plastic_return = [&]() __attribute__((noinline)) // elastic points have short code
+      {
+        // Grains with a gap do not dilate.
+        const auto cohesionless_points = cohesionless ? response.is_plastic : simd::Mask<Number>{};
+        return_to<1, Number>(surfaces, cohesionless_points, step, strain, internal_variables, stress, response);
+      };
+      if (simd::any(response.is_plastic))
+        plastic_return();
+      return response;
+    }
 
     /// See Material::initialise(). Throws if the stress is outside the yield surface.
     void initialise(const PrincipalValues &wanted_stress,
@@ -528,18 +477,17 @@ namespace scree
                     PrincipalValues &stress,
                     double *internal_variables) const;
 
-    /// Plastic shear strain, -.
-    static std::vector<Quantity> internal_quantities()
+    /// Largest of all yield functions, Pa; negative inside.
+    /// @param strength of all points, or of each
+    template <typename Number, typename S>
+    Number yield(const PrincipalNumbers<Number> &stress, const MohrCoulombStrength<S> &strength) const
     {
-      return { { "plastic_shear_strain", "-" } };
+      const Number largest = largest_of(stress), smallest = smallest_of(stress);
+      return simd::max<Number>((1. + strength.sine) * largest - (1. - strength.sine) * smallest - strength.limit,
+                               largest - largest_principal_stress);
     }
 
-    /// Largest of all yield functions, Pa; negative inside.
-    template <typename Number>
-    Number yield(const PrincipalNumbers<Number> &stress) const
-    {
-      return surfaces.yield(largest_of(stress), smallest_of(stress));
-    }
+    const MohrCoulombStrength<double> own_strength; ///< at the peak
 
   protected:
     /// The largest of three numbers.
@@ -560,111 +508,81 @@ namespace scree
     template <typename Number>
     DEAL_II_ALWAYS_INLINE inline PrincipalNumbers<Number> stress_of(const PrincipalNumbers<Number> &strain) const
     {
-      const Number volume_part = (bulk - 2. / 3. * shear) * (strain[0] + strain[1] + strain[2]);
-      return { { volume_part + 2 * shear * strain[0],
-                 volume_part + 2 * shear * strain[1],
-                 volume_part + 2 * shear * strain[2] } };
+      const Number volume_part = (bulk - 2. / 3. * shear_modulus) * (strain[0] + strain[1] + strain[2]);
+      return { { volume_part + 2 * shear_modulus * strain[0],
+                 volume_part + 2 * shear_modulus * strain[1],
+                 volume_part + 2 * shear_modulus * strain[2] } };
     }
 
     /// The return of the points that are plastic, from trial strain and stress. Sets internal variables: plastic shear
     /// strain sqrt(2/3 e:e), and kappa = e_1 - e_3 of the plane that shears, twice, if there are three of them.
     /// @param cohesionless points whose grains are apart without any opening
     template <unsigned int n_variables, typename Number, typename S>
-    void return_to(const MohrCoulombSurfaces<S> &surfaces,
-                   const simd::Mask<Number> &cohesionless,
-                   const LawStep<Number> &step,
-                   PrincipalNumbers<Number> &strain,
-                   Number *internal_variables,
-                   PrincipalNumbers<Number> &stress,
-                   LawResponse<Number> &response) const;
+    DEAL_II_ALWAYS_INLINE inline void return_to(const MohrCoulombSurfaces<S> &surfaces,
+                                                const simd::Mask<Number> &cohesionless,
+                                                const LawStep<Number> &step,
+                                                PrincipalNumbers<Number> &strain,
+                                                Number *internal_variables,
+                                                PrincipalNumbers<Number> &stress,
+                                                LawResponse<Number> &response) const
+    {
+      const PrincipalNumbers<Number> trial = strain;
+      const Number volume_strain = strain[0] + strain[1] + strain[2], zero = simd::broadcast<Number>(0.);
+      const Number of_apart =
+          simd::select<Number>(cohesionless, zero, simd::broadcast<Number>(vertex / bulk + largest_opening));
+      const simd::Mask<Number> is_kept_apart = response.is_plastic & (volume_strain >= of_apart);
+
+      Sorted<Number> sorted(stress);
+      simd::Mask<Number> left = response.is_plastic & !is_kept_apart;
+      PrincipalNumbers<Number> plastic;
+      plastic.fill(zero);
+      surfaces.return_sorted(sorted.numbers, plastic, left);
+      stress  = sorted.unsorted(sorted.numbers);
+      plastic = sorted.unsorted(plastic);
+
+      const simd::Mask<Number> at_vertex = left | is_kept_apart;
+      const Number corner = simd::max<Number>(volume_strain, simd::broadcast<Number>(vertex / bulk)) * (1. / 3.);
+      const Number mean   = (plastic[0] + plastic[1] + plastic[2]) * (1. / 3.);
+      Number square       = zero;
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          strain[i] = simd::select<Number>(at_vertex, corner, strain[i] - plastic[i]);
+          stress[i] = simd::select<Number>(at_vertex, simd::broadcast<Number>(vertex), stress[i]);
+          plastic[i] -= mean; // 0 at the vertex
+          square += plastic[i] * plastic[i];
+        }
+      response.is_unresolved = at_vertex & (volume_strain < vertex / bulk * (1 - 1e-10));
+      (vertex > 0 ? response.is_vertex : response.is_separated) = at_vertex & !response.is_unresolved;
+
+      Number increments[] = { simd::sqrt<Number>(2. / 3. * square), largest_of(plastic) - smallest_of(plastic) };
+      if (inertial_friction.is_active())
+        {
+          const Number part                   = inertial_friction.take_back<Number>(trial,
+                                                                  shear_modulus,
+                                                                  -0.5 * (largest_of(stress) + smallest_of(stress)),
+                                                                  response.is_plastic,
+                                                                  step,
+                                                                  strain);
+          const PrincipalNumbers<Number> kept = stress_of(strain);
+          for (unsigned int i = 0; i < 3; ++i)
+            stress[i] = simd::select<Number>(part > 0., kept[i], stress[i]);
+          for (Number &increment : increments)
+            increment *= 1. - part;
+        }
+      for (unsigned int i = 0; i < n_variables; ++i)
+        internal_variables[i] += increments[i > 0];
+    }
 
     const LinearElastic elastic;           ///< the law without plastic strain
-    const double shear;                    ///< modulus, Pa
     const double bulk;                     ///< modulus, Pa
     const double vertex;                   ///< tau of the vertex, Pa
     const double largest_principal_stress; ///< of the cut-off, Pa
 
   private:
-    const double on_plane;   // tau/sigma on a plane of shear, without cohesion
     const bool cohesionless; // whether the vertex of friction and cohesion is at 0
     const InertialFriction inertial_friction;
     const MohrCoulombSurfaces<double> surfaces;
   };
-
-
-  template <unsigned int n_variables, typename Number, typename S>
-  DEAL_II_ALWAYS_INLINE inline void MohrCoulomb::return_to(const MohrCoulombSurfaces<S> &surfaces,
-                                                           const simd::Mask<Number> &cohesionless,
-                                                           const LawStep<Number> &step,
-                                                           PrincipalNumbers<Number> &strain,
-                                                           Number *internal_variables,
-                                                           PrincipalNumbers<Number> &stress,
-                                                           LawResponse<Number> &response) const
-  {
-    const PrincipalNumbers<Number> trial = strain;
-    const Number volume_strain = strain[0] + strain[1] + strain[2], zero = simd::broadcast<Number>(0.);
-    const Number of_apart =
-        simd::select<Number>(cohesionless, zero, simd::broadcast<Number>(vertex / bulk + largest_opening));
-    const simd::Mask<Number> is_kept_apart = response.is_plastic & (volume_strain >= of_apart);
-
-    Sorted<Number> sorted(stress);
-    simd::Mask<Number> left = response.is_plastic & !is_kept_apart;
-    PrincipalNumbers<Number> plastic;
-    plastic.fill(zero);
-    surfaces.return_sorted(sorted.numbers, plastic, left);
-    stress  = sorted.unsorted(sorted.numbers);
-    plastic = sorted.unsorted(plastic);
-
-    const simd::Mask<Number> at_vertex = left | is_kept_apart;
-    const Number corner = simd::max<Number>(volume_strain, simd::broadcast<Number>(vertex / bulk)) * (1. / 3.);
-    const Number mean   = (plastic[0] + plastic[1] + plastic[2]) * (1. / 3.);
-    Number square       = zero;
-    for (unsigned int i = 0; i < 3; ++i)
-      {
-        strain[i] = simd::select<Number>(at_vertex, corner, strain[i] - plastic[i]);
-        stress[i] = simd::select<Number>(at_vertex, simd::broadcast<Number>(vertex), stress[i]);
-        plastic[i] -= mean; // 0 at the vertex
-        square += plastic[i] * plastic[i];
-      }
-    response.is_unresolved = at_vertex & (volume_strain < vertex / bulk * (1 - 1e-10));
-    (vertex > 0 ? response.is_vertex : response.is_separated) = at_vertex & !response.is_unresolved;
-
-    Number increments[] = { simd::sqrt<Number>(2. / 3. * square), largest_of(plastic) - smallest_of(plastic) };
-    if (inertial_friction.is_active())
-      {
-        const Number part = inertial_friction.take_back<Number>(
-            trial, shear, -0.5 * (largest_of(stress) + smallest_of(stress)), response.is_plastic, step, strain);
-        const PrincipalNumbers<Number> kept = stress_of(strain);
-        for (unsigned int i = 0; i < 3; ++i)
-          stress[i] = simd::select<Number>(part > 0., kept[i], stress[i]);
-        for (Number &increment : increments)
-          increment *= 1. - part;
-      }
-    for (unsigned int i = 0; i < n_variables; ++i)
-      internal_variables[i] += increments[i > 0];
-  }
-
-
-  template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline LawResponse<Number> MohrCoulomb::respond(const LawStep<Number> &step,
-                                                                        PrincipalNumbers<Number> &strain,
-                                                                        Number *internal_variables,
-                                                                        PrincipalNumbers<Number> &stress) const
-  {
-    stress = stress_of(strain);
-    LawResponse<Number> response{};
-    response.bulk_modulus     = simd::broadcast<Number>(bulk);
-    response.is_plastic       = yield(stress) > 0.;
-    const auto plastic_return = [&]() __attribute__((noinline)) // elastic points have short code
-    {
-      // Grains with a gap do not dilate.
-      const auto cohesionless_points = cohesionless ? response.is_plastic : simd::Mask<Number>{};
-      return_to<1, Number>(surfaces, cohesionless_points, step, strain, internal_variables, stress, response);
-    };
-    if (simd::any(response.is_plastic))
-      plastic_return();
-    return response;
-  }
 
 
   /// MohrCoulomb whose cohesion, tan(phi) and tan(psi) fall from peak to residual with the plastic shear strain of the
@@ -683,18 +601,28 @@ namespace scree
     /// Strength between that of the parameters and of their residual().
     explicit SofteningMohrCoulomb(const MohrCoulombParameters &parameters);
 
-    /// tau/sigma on a plane of shear after much strain; infinite with residual cohesion.
-    double plane_friction() const
-    {
-      return residual_plane_friction;
-    }
-
     /// See ConstitutiveLaw.
     template <typename Number>
-    LawResponse<Number> respond(const LawStep<Number> &step,
-                                PrincipalNumbers<Number> &strain,
-                                Number *internal_variables,
-                                PrincipalNumbers<Number> &stress) const;
+    DEAL_II_ALWAYS_INLINE inline LawResponse<Number> respond(const LawStep<Number> &step,
+                                                             PrincipalNumbers<Number> &strain,
+                                                             Number *internal_variables,
+                                                             PrincipalNumbers<Number> &stress) const
+    {
+      stress                                         = stress_of(strain);
+      const MohrCoulombStrength<Number> of_last_step = strength<Number>(internal_variables[acting_kappa]);
+      LawResponse<Number> response{};
+      response.bulk_modulus     = simd::broadcast<Number>(bulk);
+      response.is_plastic       = yield(stress, of_last_step) > 0.;
+      const auto plastic_return = [&]() __attribute__((noinline))
+      {
+        const MohrCoulombSurfaces<Number> surfaces(of_last_step, largest_principal_stress, bulk, shear_modulus, true);
+        return_to<3, Number>(
+            surfaces, of_last_step.limit <= least_limit, step, strain, internal_variables, stress, response);
+      };
+      if (simd::any(response.is_plastic))
+        plastic_return();
+      return response;
+    }
 
     /// See Material::initialise(). Throws if the stress is outside the yield surface of the peak.
     void initialise(const PrincipalValues &wanted_stress,
@@ -706,29 +634,17 @@ namespace scree
       internal_variables[own_kappa] = internal_variables[acting_kappa] = 0;
     }
 
-    /// Plastic strains, -.
-    static std::vector<Quantity> internal_quantities()
-    {
-      return { { "plastic_shear_strain", "-" }, { "softening_strain", "-" }, { "nonlocal_softening_strain", "-" } };
-    }
-
-    /// kappa and the one that sets the strength.
-    NonlocalVariable nonlocal_variable() const
-    {
-      return { nonlocal_length, own_kappa, acting_kappa };
-    }
-
     /// The strength at this kappa.
     template <typename Number>
-    MohrCoulombStrength<Number> strength(const Number &kappa) const;
-
-    /// Largest of all yield functions, Pa, at this strength; negative inside.
-    template <typename Number>
-    Number yield(const PrincipalNumbers<Number> &stress, const MohrCoulombStrength<Number> &strength) const
+    DEAL_II_ALWAYS_INLINE inline MohrCoulombStrength<Number> strength(const Number &kappa) const
     {
-      const Number largest = largest_of(stress), smallest = smallest_of(stress);
-      return simd::max<Number>((1. + strength.sine) * largest - (1. - strength.sine) * smallest - strength.limit,
-                               largest - largest_principal_stress);
+      const Number positive  = simd::max<Number>(kappa, simd::broadcast<Number>(0.));
+      const Number remaining = simd::exp<Number>(positive * (-1. / softening_strain));
+      const auto at          = [&](const Falling &value) { return value.residual + value.fall * remaining; };
+      const Number tan_phi = at(tangent), tan_psi = at(dilation_tangent);
+      const Number cos_phi = 1. / simd::sqrt<Number>(1. + tan_phi * tan_phi);
+      const Number cos_psi = 1. / simd::sqrt<Number>(1. + tan_psi * tan_psi);
+      return { tan_phi * cos_phi, tan_psi * cos_psi, 2. * at(cohesion) * cos_phi };
     }
 
   private:
@@ -741,47 +657,9 @@ namespace scree
     static constexpr unsigned int own_kappa = 1, acting_kappa = 2; // internal variables
 
     const double softening_strain;
-    const double nonlocal_length; // m
-    const double residual_plane_friction;
     Falling tangent, dilation_tangent, cohesion; // tan(phi), tan(psi), c, Pa
     const double least_limit;                    // 2 c cos(phi) of grains without cohesion, Pa
   };
-
-
-  template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline MohrCoulombStrength<Number> SofteningMohrCoulomb::strength(const Number &kappa) const
-  {
-    const Number positive  = simd::max<Number>(kappa, simd::broadcast<Number>(0.));
-    const Number remaining = simd::exp<Number>(positive * (-1. / softening_strain));
-    const auto at          = [&](const Falling &value) { return value.residual + value.fall * remaining; };
-    const Number tan_phi = at(tangent), tan_psi = at(dilation_tangent);
-    const Number cos_phi = 1. / simd::sqrt<Number>(1. + tan_phi * tan_phi);
-    const Number cos_psi = 1. / simd::sqrt<Number>(1. + tan_psi * tan_psi);
-    return { tan_phi * cos_phi, tan_psi * cos_psi, 2. * at(cohesion) * cos_phi };
-  }
-
-
-  template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline LawResponse<Number> SofteningMohrCoulomb::respond(const LawStep<Number> &step,
-                                                                                 PrincipalNumbers<Number> &strain,
-                                                                                 Number *internal_variables,
-                                                                                 PrincipalNumbers<Number> &stress) const
-  {
-    stress                                         = stress_of(strain);
-    const MohrCoulombStrength<Number> of_last_step = strength<Number>(internal_variables[acting_kappa]);
-    LawResponse<Number> response{};
-    response.bulk_modulus     = simd::broadcast<Number>(bulk);
-    response.is_plastic       = yield(stress, of_last_step) > 0.;
-    const auto plastic_return = [&]() __attribute__((noinline))
-    {
-      const MohrCoulombSurfaces<Number> surfaces(of_last_step, largest_principal_stress, bulk, shear, true);
-      return_to<3, Number>(
-          surfaces, of_last_step.limit <= least_limit, step, strain, internal_variables, stress, response);
-    };
-    if (simd::any(response.is_plastic))
-      plastic_return();
-    return response;
-  }
 } // namespace scree
 
 #endif

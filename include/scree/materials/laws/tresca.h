@@ -8,10 +8,8 @@
 namespace scree
 {
   /// Entries of subsection "Tresca".
-  struct TrescaParameters : LawEntries
+  struct TrescaParameters : LinearElasticParameters
   {
-    double young_modulus       = 1e7;                  ///< E, Pa
-    double poisson_ratio       = 0.45;                 ///< nu, -
     std::string strength       = "10e3";               ///< s_u of a place at the start, Pa
     double strength_gradient   = 0;                    ///< Pa/m below the surface
     double tension_cut_off     = 0;                    ///< largest principal stress, Pa
@@ -25,12 +23,14 @@ namespace scree
     std::string strength_entry = "Undrained strength"; ///< name of the entry, for messages
     double reduction           = 1;                    ///< factor by which a safety of slopes divides the strength
 
+    /// With the moduli of soft clay.
+    TrescaParameters()
+        : LinearElasticParameters(1e7, 0.45)
+    {
+    }
+
     void add_parameters(dealii::ParameterHandler &prm) override;
     void check(const std::string &subsection) const override;
-    LawEntry modulus() const override
-    {
-      return { "Young's modulus", young_modulus };
-    }
 
     /// Divides the strength of the law, not that which points have from their place, and the cut-off.
     bool divide_strength(const double factor) override
@@ -97,10 +97,47 @@ namespace scree
     /// @param shear_modulus G, Pa
     /// @param time_step s, finite
     template <typename Number>
-    Number overstress(const Number &excess,
-                      const Number &static_strength,
-                      const double shear_modulus,
-                      const double time_step) const;
+    DEAL_II_ALWAYS_INLINE inline Number overstress(const Number &excess,
+                                                   const Number &static_strength,
+                                                   const double shear_modulus,
+                                                   const double time_step) const
+    {
+      constexpr double tolerance = 1e-13, least = 1e-200; // Pa
+      constexpr unsigned int most_iterations = 60;
+
+      const Number zero = simd::broadcast<Number>(0.), some = simd::max<Number>(excess, simd::broadcast<Number>(least));
+      const Number log_excess = simd::log<Number>(some), clay = increase * static_strength;
+      const double log_step = std::log(time_step), start = log_reference + log_step; // ln(gamma) at the reference rate
+      const double viscous = log_consistency - index * log_step;                     // ln(K/dt^n)
+      const bool is_clay = increase > 0, is_mud = std::isfinite(log_consistency);
+
+      Number y = log_excess - std::log(shear_modulus), elastic = zero;
+      if (is_clay)
+        y = simd::min<Number>(y, start + some / simd::max<Number>(clay, simd::broadcast<Number>(least)));
+      if (is_mud)
+        y = simd::min<Number>(y, (log_excess - viscous) * (1. / index));
+      for (unsigned int i = 0; i < most_iterations; ++i)
+        {
+          elastic       = shear_modulus * simd::exp<Number>(y);
+          Number beyond = elastic - some, slope = elastic;
+          if (is_mud)
+            {
+              const Number power = simd::exp<Number>(index * y + viscous);
+              beyond += power;
+              slope += index * power;
+            }
+          if (is_clay)
+            {
+              const auto is_fast = y > start;
+              beyond += simd::select<Number>(is_fast, clay * (y - start), zero);
+              slope += simd::select<Number>(is_fast, clay, zero);
+            }
+          if (!simd::any(beyond > tolerance * some))
+            break;
+          y -= beyond / slope;
+        }
+      return simd::max<Number>(some - elastic, zero);
+    }
 
   private:
     const double increase;        // mu/ln(10)
@@ -108,50 +145,6 @@ namespace scree
     const double log_consistency; // of Pa s^n
     const double index;           // n
   };
-
-
-  template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline Number RateOfStrength::overstress(const Number &excess,
-                                                                 const Number &static_strength,
-                                                                 const double shear_modulus,
-                                                                 const double time_step) const
-  {
-    constexpr double tolerance = 1e-13, least = 1e-200; // Pa
-    constexpr unsigned int most_iterations = 60;
-
-    const Number zero = simd::broadcast<Number>(0.), some = simd::max<Number>(excess, simd::broadcast<Number>(least));
-    const Number log_excess = simd::log<Number>(some), clay = increase * static_strength;
-    const double log_step = std::log(time_step), start = log_reference + log_step; // ln(gamma) at the reference rate
-    const double viscous = log_consistency - index * log_step;                     // ln(K/dt^n)
-    const bool is_clay = increase > 0, is_mud = std::isfinite(log_consistency);
-
-    Number y = log_excess - std::log(shear_modulus), elastic = zero;
-    if (is_clay)
-      y = simd::min<Number>(y, start + some / simd::max<Number>(clay, simd::broadcast<Number>(least)));
-    if (is_mud)
-      y = simd::min<Number>(y, (log_excess - viscous) * (1. / index));
-    for (unsigned int i = 0; i < most_iterations; ++i)
-      {
-        elastic       = shear_modulus * simd::exp<Number>(y);
-        Number beyond = elastic - some, slope = elastic;
-        if (is_mud)
-          {
-            const Number power = simd::exp<Number>(index * y + viscous);
-            beyond += power;
-            slope += index * power;
-          }
-        if (is_clay)
-          {
-            const auto is_fast = y > start;
-            beyond += simd::select<Number>(is_fast, clay * (y - start), zero);
-            slope += simd::select<Number>(is_fast, clay, zero);
-          }
-        if (!simd::any(beyond > tolerance * some))
-          break;
-        y -= beyond / slope;
-      }
-    return simd::max<Number>(some - elastic, zero);
-  }
 
 
   /// Undrained clay with a strength of each place that falls with plastic shear and grows with its rate
@@ -175,10 +168,36 @@ namespace scree
 
     /// See ConstitutiveLaw.
     template <typename Number>
-    LawResponse<Number> respond(const LawStep<Number> &step,
-                                PrincipalNumbers<Number> &strain,
-                                Number *internal_variables,
-                                PrincipalNumbers<Number> &stress) const;
+    DEAL_II_ALWAYS_INLINE inline LawResponse<Number> respond(const LawStep<Number> &step,
+                                                             PrincipalNumbers<Number> &strain,
+                                                             Number *internal_variables,
+                                                             PrincipalNumbers<Number> &stress) const
+    {
+      stress            = stress_of(strain);
+      const Number slow = slow_strength<Number>(internal_variables), zero = simd::broadcast<Number>(0.);
+      const Number largest = largest_of(stress), shear_stress = 0.5 * (largest - smallest_of(stress));
+
+      LawResponse<Number> response{};
+      response.bulk_modulus     = simd::broadcast<Number>(bulk);
+      response.is_plastic       = (shear_stress > slow) | (largest > largest_principal_stress);
+      const auto plastic_return = [&]() __attribute__((noinline))
+      {
+        Number strength = slow;
+        if (rate_of_strength.is_active(step.time_step))
+          {
+            const Number excess = shear_stress - slow;
+            strength += simd::select<Number>(
+                excess > 0., rate_of_strength.overstress<Number>(excess, slow, shear_modulus, step.time_step), zero);
+          }
+        const MohrCoulombSurfaces<Number> surfaces(
+            { zero, zero, 2. * strength }, largest_principal_stress, bulk, shear_modulus, true);
+        const simd::Mask<Number> none{}; // is without strength
+        return_to<3, Number>(surfaces, none, step, strain, internal_variables, stress, response);
+      };
+      if (simd::any(response.is_plastic))
+        plastic_return();
+      return response;
+    }
 
     /// See Material::initialise(). Throws if the stress is beyond the strength.
     void initialise(const PrincipalValues &wanted_stress,
@@ -186,85 +205,25 @@ namespace scree
                     PrincipalValues &stress,
                     double *internal_variables) const;
 
-    /// Plastic strains, -, and s_u.
-    static std::vector<Quantity> internal_quantities()
-    {
-      return { { "plastic_shear_strain", "-" },
-               { "softening_strain", "-" },
-               { "nonlocal_softening_strain", "-" },
-               { "undrained_strength", "Pa" } };
-    }
-
-    /// kappa and the one that sets the strength.
-    NonlocalVariable nonlocal_variable() const
-    {
-      return { nonlocal_length, own_kappa, acting_kappa };
-    }
-
-    /// s_u, at most what does not fall faster than elastic stress.
-    PlaceVariable place_variable() const
-    {
-      return variable;
-    }
-
     /// Shear strength of a point that shears slowly, Pa.
     template <typename Number>
-    Number slow_strength(const Number *internal_variables) const;
+    DEAL_II_ALWAYS_INLINE inline Number slow_strength(const Number *internal_variables) const
+    {
+      const Number peak = scale * internal_variables[of_place];
+      if (decay == 0)
+        return peak;
+      const Number kappa = simd::max<Number>(internal_variables[acting_kappa], simd::broadcast<Number>(0.));
+      return peak * (residual + (1. - residual) * simd::exp<Number>(-decay * kappa));
+    }
 
   private:
     static constexpr unsigned int plastic_shear = 0, own_kappa = 1, acting_kappa = 2, of_place = 3; // variables
 
     const RateOfStrength rate_of_strength;
-    const PlaceVariable variable;
-    const double scale;           // of the strength, 1 unless reduced
-    const double nonlocal_length; // m
-    const double residual;        // 1/S_t
-    const double decay;           // 3/kappa_95; 0: strength does not fall
+    const double scale;    // of the strength, 1 unless reduced
+    const double residual; // 1/S_t
+    const double decay;    // 3/kappa_95; 0: strength does not fall
   };
-
-
-  template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline Number Tresca::slow_strength(const Number *internal_variables) const
-  {
-    const Number peak = scale * internal_variables[of_place];
-    if (decay == 0)
-      return peak;
-    const Number kappa = simd::max<Number>(internal_variables[acting_kappa], simd::broadcast<Number>(0.));
-    return peak * (residual + (1. - residual) * simd::exp<Number>(-decay * kappa));
-  }
-
-
-  template <typename Number>
-  DEAL_II_ALWAYS_INLINE inline LawResponse<Number> Tresca::respond(const LawStep<Number> &step,
-                                                                   PrincipalNumbers<Number> &strain,
-                                                                   Number *internal_variables,
-                                                                   PrincipalNumbers<Number> &stress) const
-  {
-    stress            = stress_of(strain);
-    const Number slow = slow_strength<Number>(internal_variables), zero = simd::broadcast<Number>(0.);
-    const Number largest = largest_of(stress), shear_stress = 0.5 * (largest - smallest_of(stress));
-
-    LawResponse<Number> response{};
-    response.bulk_modulus     = simd::broadcast<Number>(bulk);
-    response.is_plastic       = (shear_stress > slow) | (largest > largest_principal_stress);
-    const auto plastic_return = [&]() __attribute__((noinline))
-    {
-      Number strength = slow;
-      if (rate_of_strength.is_active(step.time_step))
-        {
-          const Number excess = shear_stress - slow;
-          strength += simd::select<Number>(
-              excess > 0., rate_of_strength.overstress<Number>(excess, slow, shear, step.time_step), zero);
-        }
-      const MohrCoulombSurfaces<Number> surfaces(
-          { zero, zero, 2. * strength }, largest_principal_stress, bulk, shear, true);
-      const simd::Mask<Number> none{}; // is without strength
-      return_to<3, Number>(surfaces, none, step, strain, internal_variables, stress, response);
-    };
-    if (simd::any(response.is_plastic))
-      plastic_return();
-    return response;
-  }
 } // namespace scree
 
 #endif
