@@ -112,40 +112,23 @@ namespace scree
   }
 
 
-  namespace
+  double Raster::value_at(const double x, const double y, const double missing) const
   {
-    /// Bilinear between the four values around a place; `missing` makes a number of one that is NaN.
-    template <typename Missing>
-    double bilinear(const Raster &raster, const double x, const double y, const Missing &missing)
-    {
-      const double u = (x - raster.x) / raster.spacing, v = (y - raster.y) / raster.spacing;
-      const double i = std::floor(u), j = std::floor(v);
-      double sum = 0.;
-      for (const unsigned int right : { 0, 1 })
-        for (const unsigned int up : { 0, 1 })
-          {
-            const double weight = (right ? u - i : 1. - (u - i)) * (up ? v - j : 1. - (v - j));
-            const double column = i + right, row = j + up;
-            const bool is_there = column >= 0 && column < raster.n_columns && row >= 0 && row < raster.n_rows;
-            if (weight > 0.)
-              sum +=
-                  weight * missing(is_there ? raster(static_cast<unsigned int>(column), static_cast<unsigned int>(row))
-                                            : std::numeric_limits<double>::quiet_NaN());
-          }
-      return sum;
-    }
-  } // namespace
-
-
-  double Raster::value_at(const double x, const double y) const
-  {
-    return bilinear(*this, x, y, [](const double value) { return value; });
-  }
-
-
-  double Raster::value_or_zero_at(const double x, const double y) const
-  {
-    return bilinear(*this, x, y, [](const double value) { return std::isnan(value) ? 0. : value; });
+    const double u = (x - this->x) / spacing, v = (y - this->y) / spacing;
+    const double i = std::floor(u), j = std::floor(v);
+    double sum = 0.;
+    for (const unsigned int right : { 0, 1 })
+      for (const unsigned int up : { 0, 1 })
+        {
+          const double weight = (right ? u - i : 1. - (u - i)) * (up ? v - j : 1. - (v - j));
+          const double column = i + right, row = j + up;
+          const bool is_there = column >= 0 && column < n_columns && row >= 0 && row < n_rows;
+          const double value =
+              is_there ? (*this)(static_cast<unsigned int>(column), static_cast<unsigned int>(row)) : missing;
+          if (weight > 0.)
+            sum += weight * (std::isnan(value) ? missing : value);
+        }
+    return sum;
   }
 
 
@@ -288,6 +271,33 @@ namespace scree
       CPLFree(confidence);
       return system;
     }
+
+
+    /// Reads or writes all of a band from the first row in memory on; false if GDAL could not.
+    /// @param from_north whether the band's first row is that in the north, which is the last one in memory
+    template <typename Value>
+    bool transfer_rows(const GDALRWFlag direction,
+                       GDALRasterBand &band,
+                       const bool from_north,
+                       const GDALDataType type,
+                       std::vector<Value> &values)
+    {
+      const int n_columns = band.GetXSize(), n_rows = band.GetYSize();
+      const GSpacing row = GSpacing(sizeof(Value)) * n_columns;
+      Value *const first = values.data() + (from_north ? std::size_t(n_rows - 1) * n_columns : 0);
+      return band.RasterIO(direction,
+                           0,
+                           0,
+                           n_columns,
+                           n_rows,
+                           first,
+                           n_columns,
+                           n_rows,
+                           type,
+                           sizeof(Value),
+                           from_north ? -row : row,
+                           nullptr) == CE_None;
+    }
   } // namespace
 
 
@@ -313,29 +323,10 @@ namespace scree
     band.SetNoDataValue(missing_value);
     band.SetDescription(name.c_str());
     band.SetUnitType(unit.c_str());
-    std::vector<float> values(raster.n_columns);
-    bool is_written = true;
-    for (unsigned int row = 0; row < raster.n_rows; ++row) // from the north
-      {
-        for (unsigned int column = 0; column < raster.n_columns; ++column)
-          {
-            const double value = raster(column, raster.n_rows - 1 - row);
-            values[column]     = static_cast<float>(std::isnan(value) ? missing_value : value);
-          }
-        is_written = band.RasterIO(GF_Write,
-                                   0,
-                                   row,
-                                   raster.n_columns,
-                                   1,
-                                   values.data(),
-                                   raster.n_columns,
-                                   1,
-                                   GDT_Float32,
-                                   0,
-                                   0,
-                                   nullptr) == CE_None &&
-                     is_written;
-      }
+    std::vector<double> values = raster.values;
+    std::replace_if(
+        values.begin(), values.end(), [](const double value) { return std::isnan(value); }, missing_value);
+    const bool is_written = transfer_rows(GF_Write, band, true, GDT_Float64, values);
     data.reset(); // completes the file
     vsi_l_offset size = 0;
     GByte *bytes      = VSIGetMemFileBuffer(file, &size, TRUE);
@@ -461,27 +452,24 @@ namespace scree
       constexpr double rounding = 1e-7, largest = 1e30;
       GDALRasterBand &band = *data.GetRasterBand(1);
       int has_missing;
-      const double marked  = band.GetNoDataValue(&has_missing);
-      const double missing = has_missing && !std::isnan(marked) ? marked : missing_value;
-      raster.values.resize(std::size_t(raster.n_columns) * raster.n_rows);
-      std::vector<GByte> mask(raster.n_columns, 1);
-      const int width = raster.n_columns;
-      for (unsigned int row = 0; row < raster.n_rows; ++row)
-        {
-          double *values = &raster.values[std::size_t(from_north ? raster.n_rows - 1 - row : row) * width];
-          if (!text.empty())
-            std::copy_n(text.begin() + std::size_t(row) * width, width, values);
-          else if (band.RasterIO(GF_Read, 0, row, width, 1, values, width, 1, GDT_Float64, 0, 0, nullptr) != CE_None ||
-                   band.GetMaskBand()->RasterIO(
-                       GF_Read, 0, row, width, 1, mask.data(), width, 1, GDT_Byte, 0, 0, nullptr) != CE_None)
-            throw EntryError(name + "GDAL cannot read row " + std::to_string(row + 1) + ": " + CPLGetLastErrorMsg() +
-                             ". Write the raster anew.");
-          for (unsigned int column = 0; column < raster.n_columns; ++column)
-            values[column] = mask[column] == 0 || !(std::abs(values[column]) < largest) ||
-                                     std::abs(values[column] - missing) <= rounding * std::abs(missing)
-                                 ? std::numeric_limits<double>::quiet_NaN()
-                                 : band.GetScale() * values[column] + band.GetOffset();
-        }
+      const double marked         = band.GetNoDataValue(&has_missing);
+      const double missing        = has_missing && !std::isnan(marked) ? marked : missing_value;
+      std::vector<double> &values = raster.values;
+      values.resize(std::size_t(raster.n_columns) * raster.n_rows);
+      std::vector<GByte> mask(values.size(), 1);
+      if (!text.empty())
+        for (std::size_t row = 0; row < raster.n_rows; ++row)
+          std::copy_n(text.begin() + row * raster.n_columns,
+                      raster.n_columns,
+                      values.begin() + (from_north ? raster.n_rows - 1 - row : row) * raster.n_columns);
+      else if (!transfer_rows(GF_Read, band, from_north, GDT_Float64, values) ||
+               !transfer_rows(GF_Read, *band.GetMaskBand(), from_north, GDT_Byte, mask))
+        throw EntryError(name + "GDAL cannot read it: " + CPLGetLastErrorMsg() + ". Write the raster anew.");
+      for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = mask[i] == 0 || !(std::abs(values[i]) < largest) ||
+                            std::abs(values[i] - missing) <= rounding * std::abs(missing)
+                        ? std::numeric_limits<double>::quiet_NaN()
+                        : band.GetScale() * values[i] + band.GetOffset();
     }
   } // namespace
 
@@ -553,109 +541,70 @@ namespace scree
   } // namespace
 
 
-  Polygon::Polygon(std::vector<Point<2>> corners)
-      : corners(std::move(corners))
-      , lower(this->corners.front())
-      , upper(lower)
-  {
-    for (const Point<2> &corner : this->corners)
-      for (unsigned int a = 0; a < 2; ++a)
-        {
-          lower[a] = std::min(lower[a], corner[a]);
-          upper[a] = std::max(upper[a], corner[a]);
-        }
-  }
-
-
-  bool Polygon::contains(const Point<2> &x) const
-  {
-    for (unsigned int a = 0; a < 2; ++a)
-      if (x[a] < lower[a] || x[a] > upper[a])
-        return false;
-    bool is_inside = false; // a ray along x crosses an odd number of edges
-    for (unsigned int i = 0; i < corners.size(); ++i)
-      {
-        const Point<2> &a = corner(i), &b = corner(i + 1);
-        if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
-          is_inside = !is_inside;
-      }
-    return is_inside;
-  }
-
-
-  unsigned int Polygon::first_crossing() const
-  {
-    const unsigned int n = corners.size();
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = i + 2; j < n; ++j)
-        if ((j + 1) % n != i && meet(corner(i), corner(i + 1), corner(j), corner(j + 1)))
-          return i;
-    return n;
-  }
-
-
   namespace
   {
-    /// The polygon of these corners, m; the last may repeat the first. Throws EntryError, which begins with `name`, if
-    /// they are fewer than three, or if edges cross.
-    Polygon checked_polygon(std::vector<Point<2>> corners, const std::string &name)
+    /// Closes a ring of corners, m on the map, and moves it; the last may repeat the first. Throws EntryError, which
+    /// begins with `name`, if they are fewer than three, or if edges cross or touch.
+    /// @param origin of the case's coordinates
+    Outline::Ring closed_ring(Outline::Ring corners, const std::string &name, const Point<2> &origin)
     {
+      for (Point<2> &corner : corners)
+        corner -= origin - Point<2>();
+      if (!corners.empty())
+        corners.push_back(corners.front());
       corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-      if (corners.size() > 1 && corners.front() == corners.back())
-        corners.pop_back();
-      if (corners.size() < 3)
-        throw EntryError(name + "it has " + std::to_string(corners.size()) +
+      const unsigned int n = std::max<std::size_t>(corners.size(), 2) - 1; // edges
+      if (n < 3)
+        throw EntryError(name + "it has " + std::to_string(n) +
                          " corners. Write three or more, x, y in m, one a line, in their order around the place.");
-      const Polygon polygon(corners);
-      const unsigned int edge = polygon.first_crossing();
-      if (edge < corners.size())
-        throw EntryError(name + "its edge from " + number_text(corners[edge]) +
-                         " m is crossed or touched by another. Write the corners in their order around the place.");
-      return polygon;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = i + 2; j < n; ++j)
+          if ((j + 1) % n != i && meet(corners[i], corners[i + 1], corners[j], corners[j + 1]))
+            throw EntryError(name + "its edge from " + number_text(corners[i]) +
+                             " m is crossed or touched by another. Write the corners in their order around the place.");
+      return corners;
     }
 
 
-    /// Reads the corners "x, y", m, one a line; the last may repeat the first. Throws EntryError, which begins with
-    /// `where` (see entry_name()), if they are fewer than three, or if edges cross.
-    /// @param origin where the map has the origin of the polygon's x and y, m
-    Polygon read_polygon(const std::string &file, const std::string &where, const Point<2> &origin)
+    std::vector<Point<2>> corners_of(const std::vector<std::vector<Outline::Ring>> &areas)
     {
-      const std::string name = where + " = " + file + ": ";
       std::vector<Point<2>> corners;
-      for (const auto &row : read_number_table(file, where, { "x (m)", "y (m)" }, FirstColumn::any))
-        corners.emplace_back(row[0] - origin[0], row[1] - origin[1]);
-      return checked_polygon(std::move(corners), name);
+      for (const auto &area : areas)
+        corners.insert(corners.end(), area.front().begin(), area.front().end());
+      return corners;
     }
   } // namespace
 
 
-  bool Outline::contains(const Point<2> &x) const
+  Outline::Outline(std::vector<std::vector<Ring>> areas)
+      : areas(std::move(areas))
+      , box(corners_of(this->areas))
   {
-    const auto has_place = [&](const Polygon &polygon) { return polygon.contains(x); };
-    return std::any_of(areas.begin(), areas.end(), [&](const auto &area) {
-      return area.front().contains(x) && std::none_of(area.begin() + 1, area.end(), has_place);
-    });
   }
 
 
-  std::pair<Point<2>, Point<2>> Outline::bounds() const
+  bool Outline::contains(const Point<2> &x) const
   {
-    auto [lower, upper] = areas.front().front().bounds();
-    for (const auto &area : areas)
-      for (unsigned int a = 0; a < 2; ++a)
+    const auto is_inside = [&x](const Ring &ring) {
+      bool result = false; // a ray along x crosses an odd number of edges
+      for (unsigned int i = 1; i < ring.size(); ++i)
         {
-          lower[a] = std::min(lower[a], area.front().bounds().first[a]);
-          upper[a] = std::max(upper[a], area.front().bounds().second[a]);
+          const Point<2> &a = ring[i - 1], &b = ring[i];
+          if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+            result = !result;
         }
-    return { lower, upper };
+      return result;
+    };
+    return box.point_inside(x) && std::any_of(areas.begin(), areas.end(), [&](const auto &area) {
+             return is_inside(area.front()) && std::none_of(area.begin() + 1, area.end(), is_inside);
+           });
   }
 
 
   namespace
   {
-    /// Corners of closed lines, m on the map, the first one of each at its end again: of an area, the edge and the
-    /// holes.
-    using Rings = std::vector<std::vector<Point<2>>>;
+    /// Corners of closed lines, m on the map: of an area, the edge and the holes.
+    using Rings = std::vector<Outline::Ring>;
 
     std::unique_ptr<GDALDataset> open(const std::string &file, const std::string &name)
     {
@@ -755,25 +704,19 @@ namespace scree
 
   Outline read_outline(const std::string &file, const std::string &where, const Point<2> &origin)
   {
-    std::vector<std::vector<Polygon>> areas;
+    const std::string name = where + " = " + file + ": ";
     if (!is_vector_file(file))
       {
-        areas.push_back({ read_polygon(file, where, origin) });
-        return Outline(std::move(areas));
+        Outline::Ring corners;
+        for (const auto &row : read_number_table(file, where, { "x (m)", "y (m)" }, FirstColumn::any))
+          corners.emplace_back(row[0], row[1]);
+        return Outline({ { closed_ring(std::move(corners), name, origin) } });
       }
-    const std::string name = where + " = " + file + ": ";
     open_file(file, name);
-    for (const Rings &rings : read_polygons(file, name))
-      {
-        areas.emplace_back();
-        for (auto corners : rings)
-          {
-            for (Point<2> &corner : corners)
-              corner -= origin - Point<2>();
-            areas.back().push_back(
-                checked_polygon(std::move(corners), name + "polygon " + std::to_string(areas.size()) + ", "));
-          }
-      }
+    std::vector<Rings> areas = read_polygons(file, name);
+    for (std::size_t i = 0; i < areas.size(); ++i)
+      for (Outline::Ring &ring : areas[i])
+        ring = closed_ring(std::move(ring), name + "polygon " + std::to_string(i + 1) + ", ", origin);
     return Outline(std::move(areas));
   }
 
