@@ -59,14 +59,12 @@ namespace scree
     /// Steps to `end` s, if they are shortened to meet the output times.
     double count_steps(const OutputParameters &output, const double end, StepsSoFar &so_far)
     {
+      OutputTimes times(output, end);
       double n = 0, time = 0;
-      while (time < end * (1. - 1e-12))
+      while (!times.is_end(time))
         {
-          double next = end;
-          for (const double interval : { output.interval, output.interval_of_statistics(), output.checkpoint_interval })
-            if (interval > 0)
-              next = std::min(next, (std::floor(time / interval * (1. + 1e-12)) + 1.) * interval);
-          const double before = so_far(time);
+          times.begin(time);
+          const double next = times.next(0.), before = so_far(time);
           n += std::max(1., std::ceil(so_far(next) - before - 1e-6));
           time = next;
         }
