@@ -23,27 +23,6 @@ namespace scree
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Keeps GDAL from writing on the screen what a message contains in any case, as long as it lives.
-    class QuietGdal
-    {
-    public:
-      /// Silences GDAL.
-      QuietGdal()
-      {
-        CPLPushErrorHandler(CPLQuietErrorHandler);
-      }
-      QuietGdal(const QuietGdal &) = delete; ///< the handlers are a stack
-
-      /// Lets GDAL write as before.
-      ~QuietGdal()
-      {
-        CPLPopErrorHandler();
-      }
-    };
-  } // namespace
-
   std::pair<double, double> Raster::range() const
   {
     std::pair<double, double> result(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
@@ -132,15 +111,27 @@ namespace scree
   }
 
 
-  std::string name_of_system(const std::string &system)
-  {
-    const auto begin = system.find('"'), end = system.find('"', begin + 1);
-    return begin == std::string::npos || end == std::string::npos ? system : system.substr(begin + 1, end - begin - 1);
-  }
-
-
   namespace
   {
+    /// Keeps GDAL from writing on the screen what a message contains in any case, as long as it lives.
+    class QuietGdal
+    {
+    public:
+      /// Silences GDAL.
+      QuietGdal()
+      {
+        CPLPushErrorHandler(CPLQuietErrorHandler);
+      }
+      QuietGdal(const QuietGdal &) = delete; ///< the handlers are a stack
+
+      /// Lets GDAL write as before.
+      ~QuietGdal()
+      {
+        CPLPopErrorHandler();
+      }
+    };
+
+
     /// Programs differ in blanks, signs and case: `CH1903+ / LV95`, `CH1903+_LV95`.
     std::string letters_of_name(const std::string &system)
     {
@@ -164,43 +155,6 @@ namespace scree
     }
 
 
-    /// Whether the coordinates of a place in one system are, within 1 mm, those in the other one.
-    bool has_same_coordinates(const OGRSpatialReference &one, const OGRSpatialReference &other, double x, double y)
-    {
-      const std::unique_ptr<OGRCoordinateTransformation> transformation(
-          OGRCreateCoordinateTransformation(&one, &other));
-      const double x_before = x, y_before = y;
-      return transformation && transformation->Transform(1, &x, &y) && std::hypot(x - x_before, y - y_before) < 1e-3;
-    }
-  } // namespace
-
-
-  bool is_same_system(const std::string &one, const std::string &other, const dealii::Point<2> &place)
-  {
-    // Names are no proof: projections of one's own are often called "unknown".
-    const QuietGdal quiet;
-    if (const auto first = known_system(one), second = known_system(other); first && second)
-      return first->IsSame(&*second) || has_same_coordinates(*first, *second, place[0], place[1]);
-    return letters_of_name(one) == letters_of_name(other);
-  }
-
-
-  void require_system_in_metres(const std::string &text, const std::string &name)
-  {
-    const QuietGdal quiet;
-    const auto system = known_system(text);
-    if (!system)
-      throw EntryError(name + "GDAL knows no such system. Write the code of a projected one, such as EPSG:2056.");
-    if (!system->IsProjected())
-      throw EntryError(name + "it is no projected system. Write one with coordinates in m, such as EPSG:2056.");
-    if (const double unit = system->GetLinearUnits(); std::abs(unit - 1.) > 1e-9)
-      throw EntryError(name + "its unit of length is " + number_text(unit) +
-                       " m. Write a system with coordinates in m, such as EPSG:2056.");
-  }
-
-
-  namespace
-  {
     /// The text of a .prj file; empty if GDAL cannot write the system so.
     std::string esri_text(const OGRSpatialReference &system)
     {
@@ -224,6 +178,42 @@ namespace scree
       return esri_text(system);
     }
   } // namespace
+
+
+  std::string name_of_system(const std::string &system)
+  {
+    const auto begin = system.find('"'), end = system.find('"', begin + 1);
+    return begin == std::string::npos || end == std::string::npos ? system : system.substr(begin + 1, end - begin - 1);
+  }
+
+
+  bool is_same_system(const std::string &one, const std::string &other, const dealii::Point<2> &place)
+  {
+    // Names are no proof: projections of one's own are often called "unknown".
+    const QuietGdal quiet;
+    const auto first = known_system(one), second = known_system(other);
+    if (!first || !second)
+      return letters_of_name(one) == letters_of_name(other);
+    const std::unique_ptr<OGRCoordinateTransformation> transformation(
+        OGRCreateCoordinateTransformation(&*first, &*second));
+    double x = place[0], y = place[1];
+    return first->IsSame(&*second) ||
+           (transformation && transformation->Transform(1, &x, &y) && place.distance({ x, y }) < 1e-3);
+  }
+
+
+  void require_system_in_metres(const std::string &text, const std::string &name)
+  {
+    const QuietGdal quiet;
+    const auto system = known_system(text);
+    if (!system)
+      throw EntryError(name + "GDAL knows no such system. Write the code of a projected one, such as EPSG:2056.");
+    if (!system->IsProjected())
+      throw EntryError(name + "it is no projected system. Write one with coordinates in m, such as EPSG:2056.");
+    if (const double unit = system->GetLinearUnits(); std::abs(unit - 1.) > 1e-9)
+      throw EntryError(name + "its unit of length is " + number_text(unit) +
+                       " m. Write a system with coordinates in m, such as EPSG:2056.");
+  }
 
 
   std::string prj_text(const std::string &text)
@@ -273,72 +263,14 @@ namespace scree
     }
 
 
-    /// Reads or writes all of a band from the first row in memory on; false if GDAL could not.
-    /// @param from_north whether the band's first row is that in the north, which is the last one in memory
-    template <typename Value>
-    bool transfer_rows(const GDALRWFlag direction,
-                       GDALRasterBand &band,
-                       const bool from_north,
-                       const GDALDataType type,
-                       std::vector<Value> &values)
+    /// Turns the order of the rows round: files begin in the north.
+    void flip_rows(std::vector<double> &values, const std::size_t n_columns)
     {
-      const int n_columns = band.GetXSize(), n_rows = band.GetYSize();
-      const GSpacing row = GSpacing(sizeof(Value)) * n_columns;
-      Value *const first = values.data() + (from_north ? std::size_t(n_rows - 1) * n_columns : 0);
-      return band.RasterIO(direction,
-                           0,
-                           0,
-                           n_columns,
-                           n_rows,
-                           first,
-                           n_columns,
-                           n_rows,
-                           type,
-                           sizeof(Value),
-                           from_north ? -row : row,
-                           nullptr) == CE_None;
+      for (auto first = values.begin(), last = values.end(); last - first >= 2 * long(n_columns); first += n_columns)
+        std::swap_ranges(first, first + n_columns, last -= n_columns);
     }
-  } // namespace
 
 
-  std::string geo_tiff(const Raster &raster, const std::string &name, const std::string &unit)
-  {
-    GDALAllRegister();
-    const QuietGdal quiet;
-    const char *const file = "/vsimem/scree_map.tif"; // in memory
-    const char *options[]  = { "COMPRESS=DEFLATE", nullptr };
-    std::unique_ptr<GDALDataset> data(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-        file, raster.n_columns, raster.n_rows, 1, GDT_Float32, const_cast<char **>(options)));
-    AssertThrow(data, dealii::ExcMessage("GDAL cannot make a GeoTIFF: " + std::string(CPLGetLastErrorMsg())));
-    double map[6] = {
-      raster.x - 0.5 * raster.spacing, raster.spacing, 0., raster.last_y() + 0.5 * raster.spacing, 0., -raster.spacing
-    };
-    data->SetGeoTransform(map);
-    if (!raster.system.empty())
-      {
-        const OGRSpatialReference system = system_of(raster);
-        data->SetSpatialRef(&system);
-      }
-    GDALRasterBand &band = *data->GetRasterBand(1);
-    band.SetNoDataValue(missing_value);
-    band.SetDescription(name.c_str());
-    band.SetUnitType(unit.c_str());
-    std::vector<double> values = raster.values;
-    std::replace_if(
-        values.begin(), values.end(), [](const double value) { return std::isnan(value); }, missing_value);
-    const bool is_written = transfer_rows(GF_Write, band, true, GDT_Float64, values);
-    data.reset(); // completes the file
-    vsi_l_offset size = 0;
-    GByte *bytes      = VSIGetMemFileBuffer(file, &size, TRUE);
-    const std::string content(reinterpret_cast<const char *>(bytes), bytes ? size : 0);
-    VSIFree(bytes);
-    AssertThrow(is_written && bytes, dealii::ExcMessage("GDAL has no room for a GeoTIFF."));
-    return content;
-  }
-
-
-  namespace
-  {
     void require_metres(const OGRSpatialReference &system, const std::string &name)
     {
       if (system.IsGeographic())
@@ -440,38 +372,62 @@ namespace scree
     }
 
 
-    /// Reads the first band, or the values of a text, whose first row is in the north or the south; what its mask hides
-    /// is NaN.
-    void read_values(GDALDataset &data,
-                     const std::vector<double> &text,
-                     const bool from_north,
-                     const std::string &name,
-                     Raster &raster)
+    /// The values of a band in the order of the file; what its mask hides is NaN.
+    std::vector<double> values_of_band(GDALRasterBand &band, const std::string &name)
     {
-      // The value for missing ones may be rounded otherwise than theirs; no height is as large as 1e30 m.
-      constexpr double rounding = 1e-7, largest = 1e30;
-      GDALRasterBand &band = *data.GetRasterBand(1);
-      int has_missing;
-      const double marked         = band.GetNoDataValue(&has_missing);
-      const double missing        = has_missing && !std::isnan(marked) ? marked : missing_value;
-      std::vector<double> &values = raster.values;
-      values.resize(std::size_t(raster.n_columns) * raster.n_rows);
-      std::vector<GByte> mask(values.size(), 1);
-      if (!text.empty())
-        for (std::size_t row = 0; row < raster.n_rows; ++row)
-          std::copy_n(text.begin() + row * raster.n_columns,
-                      raster.n_columns,
-                      values.begin() + (from_north ? raster.n_rows - 1 - row : row) * raster.n_columns);
-      else if (!transfer_rows(GF_Read, band, from_north, GDT_Float64, values) ||
-               !transfer_rows(GF_Read, *band.GetMaskBand(), from_north, GDT_Byte, mask))
+      const int width = band.GetXSize(), height = band.GetYSize();
+      std::vector<double> values(std::size_t(width) * height);
+      std::vector<GByte> mask(values.size());
+      GDALRasterBand &of_mask = *band.GetMaskBand();
+      if (band.RasterIO(GF_Read, 0, 0, width, height, values.data(), width, height, GDT_Float64, 0, 0, nullptr) ||
+          of_mask.RasterIO(GF_Read, 0, 0, width, height, mask.data(), width, height, GDT_Byte, 0, 0, nullptr))
         throw EntryError(name + "GDAL cannot read it: " + CPLGetLastErrorMsg() + ". Write the raster anew.");
       for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = mask[i] == 0 || !(std::abs(values[i]) < largest) ||
-                            std::abs(values[i] - missing) <= rounding * std::abs(missing)
-                        ? std::numeric_limits<double>::quiet_NaN()
-                        : band.GetScale() * values[i] + band.GetOffset();
+        if (mask[i] == 0)
+          values[i] = std::numeric_limits<double>::quiet_NaN();
+      return values;
     }
   } // namespace
+
+
+  std::string geo_tiff(const Raster &raster, const std::string &name, const std::string &unit)
+  {
+    GDALAllRegister();
+    const QuietGdal quiet;
+    const char *const file = "/vsimem/scree_map.tif"; // in memory
+    const char *options[]  = { "COMPRESS=DEFLATE", nullptr };
+    std::unique_ptr<GDALDataset> data(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+        file, raster.n_columns, raster.n_rows, 1, GDT_Float32, const_cast<char **>(options)));
+    AssertThrow(data, dealii::ExcMessage("GDAL cannot make a GeoTIFF: " + std::string(CPLGetLastErrorMsg())));
+    double map[6] = {
+      raster.x - 0.5 * raster.spacing, raster.spacing, 0., raster.last_y() + 0.5 * raster.spacing, 0., -raster.spacing
+    };
+    data->SetGeoTransform(map);
+    if (!raster.system.empty())
+      {
+        const OGRSpatialReference system = system_of(raster);
+        data->SetSpatialRef(&system);
+      }
+    GDALRasterBand &band = *data->GetRasterBand(1);
+    band.SetNoDataValue(missing_value);
+    band.SetDescription(name.c_str());
+    band.SetUnitType(unit.c_str());
+    std::vector<double> values = raster.values;
+    std::replace_if(
+        values.begin(), values.end(), [](const double value) { return std::isnan(value); }, missing_value);
+    flip_rows(values, raster.n_columns);
+    const int width = raster.n_columns, height = raster.n_rows;
+    const bool is_written =
+        band.RasterIO(GF_Write, 0, 0, width, height, values.data(), width, height, GDT_Float64, 0, 0, nullptr) ==
+        CE_None;
+    data.reset(); // completes the file
+    vsi_l_offset size = 0;
+    GByte *bytes      = VSIGetMemFileBuffer(file, &size, TRUE);
+    const std::string content(reinterpret_cast<const char *>(bytes), bytes ? size : 0);
+    VSIFree(bytes);
+    AssertThrow(is_written && bytes, dealii::ExcMessage("GDAL has no room for a GeoTIFF."));
+    return content;
+  }
 
 
   Raster read_raster(const std::string &file, const std::string &where, const dealii::Point<2> &origin)
@@ -495,16 +451,27 @@ namespace scree
     raster.n_rows    = data->GetRasterYSize();
     if (raster.n_columns < 2 || raster.n_rows < 2)
       throw EntryError(name + "it must have 2 columns and 2 rows at least.");
-    std::vector<double> text;
-    if (data->GetDriverName() == std::string("AAIGrid"))
-      text = values_of_text(in, std::size_t(raster.n_columns) * raster.n_rows, name);
     const bool from_north = map[5] < 0.;
     raster.spacing        = map[1];
     raster.x              = map[0] + 0.5 * map[1] - origin[0];
     raster.y              = map[3] + (from_north ? raster.n_rows - 0.5 : 0.5) * map[5] - origin[1];
     raster.system         = system_of(*data, file);
 
-    read_values(*data, text, from_north, name, raster);
+    GDALRasterBand &band = *data->GetRasterBand(1);
+    raster.values        = data->GetDriverName() == std::string("AAIGrid")
+                               ? values_of_text(in, std::size_t(raster.n_columns) * raster.n_rows, name)
+                               : values_of_band(band, name);
+    if (from_north)
+      flip_rows(raster.values, raster.n_columns);
+    // The value for missing ones may be rounded otherwise than theirs; no height is as large as 1e30 m.
+    constexpr double rounding = 1e-7, largest = 1e30;
+    int has_missing;
+    const double marked  = band.GetNoDataValue(&has_missing);
+    const double missing = has_missing && !std::isnan(marked) ? marked : missing_value;
+    for (double &value : raster.values)
+      value = std::abs(value) < largest && std::abs(value - missing) > rounding * std::abs(missing)
+                  ? band.GetScale() * value + band.GetOffset()
+                  : std::numeric_limits<double>::quiet_NaN();
     return raster;
   }
 
@@ -520,11 +487,8 @@ namespace scree
 
   namespace
   {
-    /// Twice the area of the triangle, positive if it is to the left of a to b.
-    double area(const Point<2> &a, const Point<2> &b, const Point<2> &c)
-    {
-      return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    }
+    /// Corners of closed lines, m on the map: of an area, the edge and the holes.
+    using Rings = std::vector<Outline::Ring>;
 
 
     /// Whether two edges have a place in common.
@@ -533,16 +497,15 @@ namespace scree
       for (unsigned int i = 0; i < 2; ++i)
         if (std::max(a[i], b[i]) < std::min(c[i], d[i]) || std::max(c[i], d[i]) < std::min(a[i], b[i]))
           return false;
-      const auto on_both_sides = [](const double one, const double other) {
-        return !((one > 0. && other > 0.) || (one < 0. && other < 0.));
+      // The sign is the side of the line from one place to another.
+      const auto side = [](const Point<2> &from, const Point<2> &to, const Point<2> &x) {
+        const double area = (to[0] - from[0]) * (x[1] - from[1]) - (to[1] - from[1]) * (x[0] - from[0]);
+        return (area > 0.) - (area < 0.);
       };
-      return on_both_sides(area(a, b, c), area(a, b, d)) && on_both_sides(area(c, d, a), area(c, d, b));
+      return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0;
     }
-  } // namespace
 
 
-  namespace
-  {
     /// Closes a ring of corners, m on the map, and moves it; the last may repeat the first. Throws EntryError, which
     /// begins with `name`, if they are fewer than three, or if edges cross or touch.
     /// @param origin of the case's coordinates
@@ -565,46 +528,6 @@ namespace scree
       return corners;
     }
 
-
-    std::vector<Point<2>> corners_of(const std::vector<std::vector<Outline::Ring>> &areas)
-    {
-      std::vector<Point<2>> corners;
-      for (const auto &area : areas)
-        corners.insert(corners.end(), area.front().begin(), area.front().end());
-      return corners;
-    }
-  } // namespace
-
-
-  Outline::Outline(std::vector<std::vector<Ring>> areas)
-      : areas(std::move(areas))
-      , box(corners_of(this->areas))
-  {
-  }
-
-
-  bool Outline::contains(const Point<2> &x) const
-  {
-    const auto is_inside = [&x](const Ring &ring) {
-      bool result = false; // a ray along x crosses an odd number of edges
-      for (unsigned int i = 1; i < ring.size(); ++i)
-        {
-          const Point<2> &a = ring[i - 1], &b = ring[i];
-          if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
-            result = !result;
-        }
-      return result;
-    };
-    return box.point_inside(x) && std::any_of(areas.begin(), areas.end(), [&](const auto &area) {
-             return is_inside(area.front()) && std::none_of(area.begin() + 1, area.end(), is_inside);
-           });
-  }
-
-
-  namespace
-  {
-    /// Corners of closed lines, m on the map: of an area, the edge and the holes.
-    using Rings = std::vector<Outline::Ring>;
 
     std::unique_ptr<GDALDataset> open(const std::string &file, const std::string &name)
     {
@@ -700,6 +623,33 @@ namespace scree
              ending == ".json" || ending == ".shp" || ending == ".gpkg";
     }
   } // namespace
+
+
+  Outline::Outline(std::vector<std::vector<Ring>> areas)
+      : areas(std::move(areas))
+      , box(std::make_pair(this->areas.front().front().front(), this->areas.front().front().front()))
+  {
+    for (const auto &area : this->areas)
+      box.merge_with(BoundingBox<2>(area.front()));
+  }
+
+
+  bool Outline::contains(const Point<2> &x) const
+  {
+    const auto is_inside = [&x](const Ring &ring) {
+      bool result = false; // a ray along x crosses an odd number of edges
+      for (unsigned int i = 1; i < ring.size(); ++i)
+        {
+          const Point<2> &a = ring[i - 1], &b = ring[i];
+          if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+            result = !result;
+        }
+      return result;
+    };
+    return box.point_inside(x) && std::any_of(areas.begin(), areas.end(), [&](const auto &area) {
+             return is_inside(area.front()) && std::none_of(area.begin() + 1, area.end(), is_inside);
+           });
+  }
 
 
   Outline read_outline(const std::string &file, const std::string &where, const Point<2> &origin)
