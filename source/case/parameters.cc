@@ -133,7 +133,7 @@ namespace scree
                              ", but that of " + source + " is " + name_of_system(system) +
                              ". All maps of a case must have the same one: " + map.remedy);
         }
-      if (parameters.output.maps.write && parameters.output.maps.writes_geo_tiff() && !system.empty())
+      if (parameters.output.maps.write && parameters.output.maps.format != "ASCII grid" && !system.empty())
         require_system_in_metres(system, source + ": its coordinate system is " + name_of_system(system) + ": ");
       return system;
     }

@@ -71,9 +71,10 @@ namespace scree
           if (row + 1 < n_rows)
             compare({ column, row + 1 }, place);
         }
-    const std::size_t missing = n_missing();
-    const auto text           = [this](const Place &place) { return text_of(place.first, place.second); };
-    if (missing == values.size())
+    const auto missing =
+        std::count_if(values.begin(), values.end(), [](const double value) { return std::isnan(value); });
+    const auto text = [this](const Place &place) { return text_of(place.first, place.second); };
+    if (missing == long(values.size()))
       return name + ": all heights of the raster are missing (NODATA). " + where_missing;
     std::string result = name + ": heights of the raster from " + text(lowest) + " to " + text(highest);
     if (missing > 0)

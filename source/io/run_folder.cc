@@ -12,47 +12,23 @@ namespace scree
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Removes the files of a folder whose path `is_old`.
-    template <typename Choice>
-    void remove_files(const std::filesystem::path &folder, const Choice &is_old)
-    {
-      for (const auto &entry : std::filesystem::directory_iterator(folder))
-        if (entry.is_regular_file() && is_old(entry.path()))
-          std::filesystem::remove(entry.path());
-    }
-
-    bool is_picture(const std::filesystem::path &file)
-    {
-      const auto kind = file.extension();
-      return kind == ".vtu" || kind == ".pvtu" || kind == ".pvd";
-    }
-
-    bool is_map(const std::filesystem::path &file)
-    {
-      const auto kind = file.extension();
-      return kind == ".asc" || kind == ".prj" || kind == ".tif" || kind == ".csv";
-    }
-
-    bool is_probe(const std::filesystem::path &file)
-    {
-      return file.filename().string().rfind("probe_", 0) == 0;
-    }
-  } // namespace
-
-
   void RunFolder::remove_old_results()
   {
     if (writer)
       {
-        remove_files(file("solution"), is_picture);
-        if (std::filesystem::is_directory(file("maps")))
-          remove_files(file("maps"), is_map);
+        const auto remove_files =
+            [this](const std::string &folder, const std::string &begin, const std::set<std::string> &extensions) {
+              std::error_code is_missing;
+              for (const auto &entry : std::filesystem::directory_iterator(file(folder), is_missing))
+                if (entry.is_regular_file() && extensions.count(entry.path().extension()) > 0 &&
+                    entry.path().filename().string().rfind(begin, 0) == 0)
+                  std::filesystem::remove(entry.path());
+            };
+        remove_files("solution", "", { ".vtu", ".pvtu", ".pvd" });
+        remove_files("maps", "", { ".asc", ".prj", ".tif", ".csv" });
+        remove_files(".", "statistics", { "", ".csv" });
+        remove_files(".", "probe_", { "", ".csv" });
         std::filesystem::remove_all(file("checkpoint"));
-        for (const std::string name : { "statistics", "statistics.csv" })
-          std::filesystem::remove(file(name));
-        remove_files(path, is_probe);
         log_file.close();
         log_file.open(file("log.txt"), std::ios::trunc);
       }

@@ -42,12 +42,6 @@ namespace scree
       return y + (n_rows - 1) * spacing;
     }
 
-    /// Values that are missing.
-    std::size_t n_missing() const
-    {
-      return std::count_if(values.begin(), values.end(), [](const double value) { return std::isnan(value); });
-    }
-
     /// Smallest and largest value; infinity and minus infinity if all are missing.
     std::pair<double, double> range() const;
 
