@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/io/run_folder.h>
 
+#include <boost/algorithm/string/trim.hpp>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <iomanip>
 #include <optional>
+#include <regex>
 #include <sstream>
 
 namespace scree
@@ -76,22 +79,12 @@ namespace scree
 
   namespace
   {
-    /// Words of letters and digits, joined by `_`.
+    /// Words of letters, also beyond ASCII, and digits, joined by `_`.
     std::string joined_words(const std::string &text)
     {
-      std::string result;
-      bool is_in_word = false;
-      for (const char c : text)
-        {
-          const auto byte    = static_cast<unsigned char>(c);
-          const bool is_word = std::isalnum(byte) || byte >= 128; // also letters beyond ASCII
-          if (is_word && !is_in_word && !result.empty())
-            result += '_';
-          if (is_word)
-            result += c;
-          is_in_word = is_word;
-        }
-      return result;
+      static const std::regex others("[\\x01-/:-@\\[-`{-\\x7F]+");
+      return boost::algorithm::trim_copy_if(std::regex_replace(text, others, "_"),
+                                            [](const char c) { return c == '_'; });
     }
 
 

@@ -412,17 +412,19 @@ namespace scree
                               const BackgroundGrid<dim> &grid)
   {
     const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
-    std::vector<double> sums(5, 0.); // water points, water mass, that outside soil, overfull volume, volume
+    WaterMeasures measures;
+    double volume = 0., overfull = 0.; // of grains and water
     for (const CellContents &cell : contents_of_cells(bodies, water, grid))
       {
-        const double volume = cell.grain_volume + cell.water_volume;
-        sums[0] += cell.n_water_points;
-        sums[1] += cell.water_mass;
-        sums[2] += cell.n_soil_points == 0 ? cell.water_mass : 0.;
-        sums[3] += std::max(0., volume - cell_volume);
-        sums[4] += volume;
+        const double filled = cell.grain_volume + cell.water_volume;
+        measures.n_points += cell.n_water_points;
+        measures.mass += cell.water_mass;
+        measures.mass_outside_soil += cell.n_soil_points == 0 ? cell.water_mass : 0.;
+        overfull += std::max(0., filled - cell_volume);
+        volume += filled;
       }
-    Utilities::MPI::sum(sums, grid.communicator(), sums);
+    NumbersOf{ &measures.n_points, &measures.mass, &measures.mass_outside_soil, &overfull, &volume }.sum_over_ranks(
+        grid.communicator());
 
     std::vector<double> largest(3, -std::numeric_limits<double>::infinity()); // -p, p, x
     for (const auto &one : water)
@@ -434,14 +436,11 @@ namespace scree
       });
     Utilities::MPI::max(largest, grid.communicator(), largest);
 
-    WaterMeasures measures;
-    measures.n_points          = sums[0];
-    measures.mass              = sums[1];
-    measures.mass_outside_soil = sums[2];
-    measures.smallest_pressure = sums[0] > 0 ? -largest[0] : 0.;
-    measures.largest_pressure  = sums[0] > 0 ? largest[1] : 0.;
-    measures.tip               = sums[0] > 0 ? largest[2] : grid.lower_corner()[0];
-    measures.volume_error      = sums[4] > 0 ? sums[3] / sums[4] : 0.;
+    const bool is_there        = measures.n_points > 0;
+    measures.smallest_pressure = is_there ? -largest[0] : 0.;
+    measures.largest_pressure  = is_there ? largest[1] : 0.;
+    measures.tip               = is_there ? largest[2] : grid.lower_corner()[0];
+    measures.volume_error      = volume > 0 ? overfull / volume : 0.;
     return measures;
   }
 

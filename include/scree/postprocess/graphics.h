@@ -192,19 +192,10 @@ namespace scree
     {
     }
 
-    /// Gathers the state at `time` under the next number; the job writes it, a `.pvd` last.
-    /// Points (if there is soil): velocity (m/s), stress (Pa,
-    /// tension positive, 3 x 3), mean_effective_stress P, deviatoric_stress q (Pa), stress_ratio q/P, mass (kg), volume
-    /// (m^3), body (number), id (lasting, unique in its body), displacement (m, if points keep their start), and the
-    /// law's internal variables and derived fields. Grid: velocity (m/s) at the cells' corners, mean density (kg/m^3)
-    /// and P (Pa) of the cells.
-    ///
+    /// Gathers the state at `time` under the next number; the job writes it, a `.pvd` last. doc/output.md has the
+    /// fields of soil points, water points and grid cells.
     /// @param field the soil's, solved: its mass and velocity are read
-    /// @param view null in a dry run. Else points gain porosity n = 1 - m/(rho_s V), pore_pressure (Pa) and
-    /// seepage_velocity n (v_w - v_s) (m/s), and the grid water_velocity (m/s) and pressure (Pa) at the corners,
-    /// porosity and saturation of the cells. Water points, or soil points seen as carriers of water: velocity (m/s),
-    /// pressure (Pa), mass (kg) and volume (m^3) of the water, porosity of the soil in the cell (1 without soil),
-    /// inside_soil (1 in cells with soil points, else 0) and seepage_velocity (m/s, 0 without soil).
+    /// @param view null in a dry run; soil points that carry water are water points, too
     FileJob write(const std::list<SoilBody<dim>> &bodies,
                   const NodalField<dim> &field,
                   const double time,
