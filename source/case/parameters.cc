@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case/case_checks.h>
 #include <scree/case/parameters.h>
+#include <scree/io/progress.h>
 #include <scree/materials/laws/mohr_coulomb.h>
 
 #include <sstream>
@@ -34,11 +35,10 @@ namespace scree
     /// Numbers as they must be written to be the same when they are read again, within 15 digits.
     std::string exact_text(const std::vector<double> &numbers)
     {
-      std::ostringstream text;
-      text.precision(15);
-      for (std::size_t i = 0; i < numbers.size(); ++i)
-        text << (i == 0 ? "" : ", ") << numbers[i];
-      return text.str();
+      std::vector<std::string> words;
+      for (const double number : numbers)
+        words.push_back(formatted("%.15g", number));
+      return boost::algorithm::join(words, ", ");
     }
 
 

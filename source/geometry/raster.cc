@@ -114,23 +114,12 @@ namespace scree
 
   namespace
   {
-    /// Keeps GDAL from writing on the screen what a message contains in any case, as long as it lives.
-    class QuietGdal
+    /// Keeps GDAL from writing on the screen what a message contains in any case, as long as the result lives.
+    std::shared_ptr<void> silence_gdal()
     {
-    public:
-      /// Silences GDAL.
-      QuietGdal()
-      {
-        CPLPushErrorHandler(CPLQuietErrorHandler);
-      }
-      QuietGdal(const QuietGdal &) = delete; ///< the handlers are a stack
-
-      /// Lets GDAL write as before.
-      ~QuietGdal()
-      {
-        CPLPopErrorHandler();
-      }
-    };
+      CPLPushErrorHandler(CPLQuietErrorHandler);
+      return { nullptr, [](void *) { CPLPopErrorHandler(); } };
+    }
 
 
     /// Programs differ in blanks, signs and case: `CH1903+ / LV95`, `CH1903+_LV95`.
@@ -191,7 +180,7 @@ namespace scree
   bool is_same_system(const std::string &one, const std::string &other, const dealii::Point<2> &place)
   {
     // Names are no proof: projections of one's own are often called "unknown".
-    const QuietGdal quiet;
+    const auto quiet = silence_gdal();
     const auto first = known_system(one), second = known_system(other);
     if (!first || !second)
       return letters_of_name(one) == letters_of_name(other);
@@ -205,7 +194,7 @@ namespace scree
 
   void require_system_in_metres(const std::string &text, const std::string &name)
   {
-    const QuietGdal quiet;
+    const auto quiet  = silence_gdal();
     const auto system = known_system(text);
     if (!system)
       throw EntryError(name + "GDAL knows no such system. Write the code of a projected one, such as EPSG:2056.");
@@ -221,7 +210,7 @@ namespace scree
   {
     if (text.find('[') != std::string::npos)
       return text;
-    const QuietGdal quiet;
+    const auto quiet  = silence_gdal();
     const auto system = known_system(text);
     return system ? esri_text(*system) : "";
   }
@@ -394,7 +383,7 @@ namespace scree
   std::string geo_tiff(const Raster &raster, const std::string &name, const std::string &unit)
   {
     GDALAllRegister();
-    const QuietGdal quiet;
+    const auto quiet       = silence_gdal();
     const char *const file = "/vsimem/scree_map.tif"; // in memory
     const char *options[]  = { "COMPRESS=DEFLATE", nullptr };
     std::unique_ptr<GDALDataset> data(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
@@ -435,8 +424,8 @@ namespace scree
   {
     const std::string name = where + " = " + file + ": ";
     std::ifstream in       = open_text(file, name);
-    const QuietGdal quiet;
-    const auto data = open(in, file, name);
+    const auto quiet       = silence_gdal();
+    const auto data        = open(in, file, name);
     if (const OGRSpatialReference *system = data->GetSpatialRef())
       require_metres(*system, name);
     require_values_in_metres(*data, name);
@@ -481,7 +470,7 @@ namespace scree
   {
     const std::string name = where + " = " + file + ": ";
     std::ifstream in       = open_text(file, name);
-    const QuietGdal quiet;
+    const auto quiet       = silence_gdal();
     return system_of(*open(in, file, name), file);
   }
 
@@ -582,8 +571,8 @@ namespace scree
     /// none or anything else.
     std::vector<Rings> read_polygons(const std::string &file, const std::string &name)
     {
-      const QuietGdal quiet;
-      const auto data = open(file, name);
+      const auto quiet = silence_gdal();
+      const auto data  = open(file, name);
       std::vector<Rings> areas;
       for (const auto &feature : only_layer(*data, name))
         if (const OGRGeometry *geometry = feature->GetGeometryRef(); geometry != nullptr && !geometry->IsEmpty())
@@ -597,7 +586,7 @@ namespace scree
     /// The coordinate system of such a file; empty if it has none.
     std::string system_of_vector_file(const std::string &file, const std::string &name)
     {
-      const QuietGdal quiet;
+      const auto quiet                  = silence_gdal();
       const auto data                   = open(file, name);
       OGRLayer &layer                   = only_layer(*data, name);
       const OGRSpatialReference *system = layer.GetSpatialRef();
@@ -617,7 +606,7 @@ namespace scree
     bool is_vector_file(const std::string &file)
     {
       GDALAllRegister();
-      const QuietGdal quiet;
+      const auto quiet         = silence_gdal();
       const std::string ending = lower_case(std::filesystem::path(file).extension().string());
       const GDALDriverH driver = GDALIdentifyDriverEx(file.c_str(), GDAL_OF_VECTOR, nullptr, nullptr);
       return (driver != nullptr && GDALGetDriverShortName(driver) != std::string("CSV")) || ending == ".geojson" ||

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/io/progress.h>
 #include <scree/io/run_folder.h>
 
 #include <boost/algorithm/string/trim.hpp>
@@ -6,10 +7,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <iomanip>
 #include <optional>
 #include <regex>
-#include <sstream>
 
 namespace scree
 {
@@ -29,7 +28,8 @@ namespace scree
             };
         remove_files("solution", "", { ".vtu", ".pvtu", ".pvd" });
         remove_files("maps", "", { ".asc", ".prj", ".tif", ".csv" });
-        remove_files(".", "statistics", { "", ".csv" });
+        for (const std::string name : { "statistics", "statistics.csv" })
+          std::filesystem::remove(file(name));
         remove_files(".", "probe_", { "", ".csv" });
         std::filesystem::remove_all(file("checkpoint"));
         log_file.close();
@@ -68,12 +68,10 @@ namespace scree
 
   std::string table_row(const std::vector<double> &values)
   {
-    std::ostringstream line;
-    line << std::scientific << std::setprecision(12);
+    std::string line;
     for (const double value : values)
-      line << value << ' ';
-    line << '\n';
-    return line.str();
+      line += formatted("%.12e ", value);
+    return line + '\n';
   }
 
 
@@ -131,18 +129,10 @@ namespace scree
 
   std::string csv_row(const std::vector<double> &values)
   {
-    std::ostringstream line;
-    line << std::setprecision(13);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      {
-        line << (i == 0 ? "" : ",");
-        if (std::isnan(values[i])) // some machines would write -nan
-          line << "nan";
-        else
-          line << values[i];
-      }
-    line << '\n';
-    return line.str();
+    std::vector<std::string> words;
+    for (const double value : values)
+      words.push_back(std::isnan(value) ? "nan" : formatted("%.13g", value)); // some machines would write -nan
+    return boost::algorithm::join(words, ",") + '\n';
   }
 
 
