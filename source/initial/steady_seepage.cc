@@ -140,6 +140,7 @@ namespace scree
       static constexpr unsigned int n_vertices = 1 << dim;
       static constexpr unsigned int n_1d       = dim == 2 ? 4 : 3; // parts of a cell along an axis
       static constexpr unsigned int n_parts    = Utilities::pow(n_1d, dim);
+
       /// A cell with soil, divided into equal parts.
       struct Cell
       {

@@ -17,18 +17,21 @@ namespace scree
     /// A subsection, or an entry with the same name, and the subsection in which it stands.
     using Name = CaseEntry;
 
+    bool has_name(const std::vector<Name> &names, const std::string &path, const std::string &name)
+    {
+      return std::any_of(
+          names.begin(), names.end(), [&](const Name &one) { return one.subsection == path && one.name == name; });
+    }
+
     /// Adds a subsection behind those around it, unless it is there.
     void add_subsection(const std::string &path, std::vector<Name> &subsections)
     {
       const std::size_t slash  = path.rfind('/');
       const std::string around = slash == std::string::npos ? "" : path.substr(0, slash);
-      const Name subsection{ around, path.substr(slash + 1) };
-      if (path.empty() || std::any_of(subsections.begin(), subsections.end(), [&](const Name &one) {
-            return one.subsection == subsection.subsection && one.name == subsection.name;
-          }))
+      if (path.empty() || has_name(subsections, around, path.substr(slash + 1)))
         return;
       add_subsection(around, subsections);
-      subsections.push_back(subsection);
+      subsections.push_back({ around, path.substr(slash + 1) });
     }
 
     /// The subsections of entries, each once, in their order.
@@ -437,13 +440,14 @@ namespace scree
                         const EntryRemedy &entry_remedy) const
   {
     const CaseEntries declared(prm);
+    const std::vector<Name> subsections = subsections_of(declared);
     for (const Statement &statement : statements)
-      if (const std::string path = subsection_path(statement.path, statement.name);
-          statement.kind == Kind::subsection && !declared.has_subsection(path))
+      if (statement.kind == Kind::subsection && !has_name(subsections, statement.path, statement.name))
         {
-          std::string remedy = subsection_remedy ? subsection_remedy(path) : "";
+          const std::string path = subsection_path(statement.path, statement.name);
+          std::string remedy     = subsection_remedy ? subsection_remedy(path) : "";
           if (remedy.empty())
-            remedy = suggestion(subsections_of(declared), statement.path, statement.name);
+            remedy = suggestion(subsections, statement.path, statement.name);
           throw statement.error("subsection " + path + ": there is no such subsection. " +
                                 (remedy.empty() ? last_remedy : remedy));
         }
