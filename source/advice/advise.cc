@@ -59,14 +59,12 @@ namespace scree
     /// Steps to `end` s, if they are shortened to meet the output times.
     double count_steps(const OutputParameters &output, const double end, StepsSoFar &so_far)
     {
+      OutputTimes times(output, end);
       double n = 0, time = 0;
-      while (time < end * (1. - 1e-12))
+      while (!times.is_end(time))
         {
-          double next = end;
-          for (const double interval : { output.interval, output.interval_of_statistics(), output.checkpoint_interval })
-            if (interval > 0)
-              next = std::min(next, (std::floor(time / interval * (1. + 1e-12)) + 1.) * interval);
-          const double before = so_far(time);
+          times.begin(time);
+          const double next = times.next(0.), before = so_far(time);
           n += std::max(1., std::ceil(so_far(next) - before - 1e-6));
           time = next;
         }
@@ -559,36 +557,18 @@ namespace scree
     }
 
 
-    /// A run folder of its own for the steps that are looked at; removed with its owner.
-    class PassingFolder
+    /// A run folder of its own for the steps that are looked at; removed with its owner. Collective.
+    std::shared_ptr<const std::string> passing_folder(const MPI_Comm communicator)
     {
-    public:
-      explicit PassingFolder(const MPI_Comm communicator)
-          : is_owner(Utilities::MPI::this_mpi_process(communicator) == 0)
-          , name(Utilities::MPI::broadcast(
-                communicator,
-                (std::filesystem::temp_directory_path() / ("scree-advice-" + std::to_string(getpid()))).string(),
-                0))
-      {
-      }
-      ~PassingFolder()
-      {
-        std::error_code nobody_minds;
-        if (is_owner)
-          std::filesystem::remove_all(name, nobody_minds);
-      }
-      PassingFolder(const PassingFolder &)            = delete;
-      PassingFolder &operator=(const PassingFolder &) = delete;
-
-      const std::string &path() const
-      {
-        return name;
-      }
-
-    private:
-      const bool is_owner;
-      const std::string name;
-    };
+      const std::string name = std::filesystem::temp_directory_path() / ("scree-advice-" + std::to_string(getpid()));
+      const bool removes     = Utilities::MPI::this_mpi_process(communicator) == 0;
+      return { new std::string(Utilities::MPI::broadcast(communicator, name)), [removes](const std::string *folder) {
+                std::error_code nobody_minds;
+                if (removes)
+                  std::filesystem::remove_all(*folder, nobody_minds);
+                delete folder;
+              } };
+    }
 
 
     /// How many times as wide cells keep a case to what can be looked at in seconds. Collective.
@@ -651,7 +631,7 @@ namespace scree
           { inflow.subsection, "Body", inflow.body },
           "--advise looks at the points of the start, and cannot tell what a case costs whose points enter on "
           "the way. Remove the inflow for it, and write its points as a body.");
-    const PassingFolder folder(communicator);
+    const auto folder = passing_folder(communicator);
 
     Advice advice;
     advice.accuracy           = accuracy;
@@ -667,7 +647,7 @@ namespace scree
     parameters.output.statistics_interval = 0;
     parameters.output.checkpoint_interval = 0;
     parameters.settling.maximum_time      = 0;
-    parameters.output_directory           = folder.path() + "/first_steps";
+    parameters.output_directory           = *folder + "/first_steps";
     coarsen(parameters, advice.coarser);
     {
       Simulation<dim> simulation(parameters, Start::fresh, communicator);
@@ -682,7 +662,7 @@ namespace scree
         {
           const double of_run         = cost_of_run(advice.scene, advice.seen, advice.schedule).step_seconds;
           advice.pilot_coarser        = coarsening_of_pilot(advice, of_run);
-          parameters.output_directory = folder.path() + "/pilot";
+          parameters.output_directory = *folder + "/pilot";
           parameters.grid             = advice.grid;
           parameters.time_step        = advice.schedule.time_step;
           coarsen(parameters, advice.pilot_coarser);

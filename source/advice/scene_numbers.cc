@@ -158,14 +158,13 @@ namespace scree
           const double mass = properties[body.layout.mass], volume = properties[body.layout.volume];
           const double at_start = mean_effective_stress(properties + body.layout.stress);
           const double pressure = at_start > 0 ? at_start : first_pressure;
-          const WaveMedium medium{ law.initial_bulk_modulus(pressure), law.shear_modulus, body.density, pressure };
+          const WaveMedium medium{ law.initial_bulk_modulus(pressure), law.shear_modulus, body.density };
           if (medium.speed() > scene.fastest.speed())
             scene.fastest = medium;
           ++soil_points;
           soil_mass += mass;
           soil_volume += volume;
           grain_volume += mass / body.grain_density;
-          pressure_sum += volume * pressure;
           bulk_sum += volume * medium.bulk_modulus;
           shear_sum += volume * medium.shear_modulus;
           height_moment += mass * height_of(point.location);
@@ -205,17 +204,15 @@ namespace scree
       void finish()
       {
         double n_occupied = std::count(occupied.begin(), occupied.end(), 1);
-        const NumbersOf sums{ &soil_points, &soil_mass,    &soil_volume, &grain_volume, &pressure_sum,  &bulk_sum,
-                              &shear_sum,   &water_points, &water_mass,  &water_volume, &height_moment, &n_occupied };
+        const NumbersOf sums{ &soil_points,  &soil_mass,  &soil_volume,  &grain_volume,  &bulk_sum,  &shear_sum,
+                              &water_points, &water_mass, &water_volume, &height_moment, &n_occupied };
         sums.sum_over_ranks(communicator);
         scene.n_soil_points  = soil_points;
         scene.n_water_points = water_points;
         scene.n_occupied     = n_occupied;
         if (scene.has_soil)
           {
-            scene.mean = {
-              bulk_sum / soil_volume, shear_sum / soil_volume, soil_mass / soil_volume, pressure_sum / soil_volume
-            };
+            scene.mean          = { bulk_sum / soil_volume, shear_sum / soil_volume, soil_mass / soil_volume };
             scene.grain_density = soil_mass / grain_volume;
             scene.porosity      = 1. - grain_volume / soil_volume;
             if (scene.has_water)
@@ -223,11 +220,9 @@ namespace scree
           }
         // The rank with the fastest wave names its soil.
         const auto speeds = Utilities::MPI::min_max_avg(scene.fastest.speed(), communicator);
-        std::vector<double> fastest{
-          scene.fastest.bulk_modulus, scene.fastest.shear_modulus, scene.fastest.density, scene.fastest.pressure
-        };
+        std::vector<double> fastest{ scene.fastest.bulk_modulus, scene.fastest.shear_modulus, scene.fastest.density };
         fastest       = Utilities::MPI::broadcast(communicator, fastest, speeds.max_index);
-        scene.fastest = { fastest[0], fastest[1], fastest[2], fastest[3] };
+        scene.fastest = { fastest[0], fastest[1], fastest[2] };
 
         // Level in the box, soil and the water that finds no room in its pores have their centre at half their height.
         const double box_height = grid.upper_corner()[axis] - grid.lower_corner()[axis];
@@ -245,9 +240,8 @@ namespace scree
       SceneNumbers scene;
 
       std::vector<char> occupied; // cells, on this rank
-      // Sums over the points, SI units; pressure and moduli times volume.
-      double soil_points = 0, soil_mass = 0, soil_volume = 0, grain_volume = 0, pressure_sum = 0, bulk_sum = 0,
-             shear_sum    = 0;
+      // Sums over the points, SI units; moduli times volume.
+      double soil_points = 0, soil_mass = 0, soil_volume = 0, grain_volume = 0, bulk_sum = 0, shear_sum = 0;
       double water_points = 0, water_mass = 0, water_volume = 0;
       double height_moment = 0; // kg m
     };

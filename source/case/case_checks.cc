@@ -367,11 +367,6 @@ namespace scree
       refused ///< stops
     };
 
-    bool any_values(const std::string &, const std::string &)
-    {
-      return true;
-    }
-
     /// Points carry an affine field of velocity with some methods only.
     bool methods_of_same_points(const std::string &before, const std::string &now)
     {
@@ -385,7 +380,7 @@ namespace scree
     {
       std::string subsection, name; // no name: all entries of the subsection
       Change change;
-      bool (*holds_for)(const std::string &before, const std::string &now) = any_values;
+      bool (*holds_for)(const std::string &before, const std::string &now) = nullptr; ///< null: for any values
     };
 
     /// Entries without a rule must not change.
@@ -409,8 +404,8 @@ namespace scree
       });
       if (rule == rules.end())
         return Change::refused;
-      const bool bears_it =
-          rule->change == Change::free || (before && now && rule->holds_for(before->value, now->value));
+      const bool bears_it = rule->change == Change::free ||
+                            (before && now && (!rule->holds_for || rule->holds_for(before->value, now->value)));
       return bears_it ? rule->change : Change::refused;
     }
 

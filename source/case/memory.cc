@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case/memory.h>
+#include <scree/io/progress.h>
 #include <scree/seeding/seeding.h>
 
 #include <sys/resource.h>
@@ -183,15 +184,6 @@ namespace scree
     }
 
 
-    std::string size_text(const double bytes)
-    {
-      std::ostringstream text;
-      text.precision(2);
-      text << bytes / 1e9 << " GB";
-      return text.str();
-    }
-
-
     /// The entry that most of the memory is for, with its subsection and value.
     std::tuple<std::string, std::string, double> largest_part(const Parameters &parameters,
                                                               const MemoryEstimate &estimate)
@@ -298,10 +290,11 @@ namespace scree
       {
         const auto [subsection, entry, value] = largest_part(parameters, estimate);
         fault                                 = entry_message({ subsection, entry, number_text(value) },
-                              "the run would need about " + size_text(needed) + " of memory, for " +
+                              "the run would need about " + formatted("%.2g GB", needed / 1e9) + " of memory, for " +
                                   number_text(estimate.n_cells) + " cells and about " +
                                   number_text(estimate.n_soil_points + estimate.n_water_points) + " points, but only " +
-                                  size_text(available) + " are available" + (share < 1 ? " on a host" : "") +
+                                  formatted("%.2g GB", available / 1e9) + " are available" +
+                                  (share < 1 ? " on a host" : "") +
                                   ". Write larger cells or fewer points per cell, or use more hosts.");
       }
     throw_on_all_ranks(fault, communicator);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case/case_checks.h>
 #include <scree/case/parameters.h>
+#include <scree/io/progress.h>
 #include <scree/materials/laws/mohr_coulomb.h>
 
 #include <sstream>
@@ -11,17 +12,8 @@ namespace scree
 
   namespace
   {
-    /// A box around the ground of a raster.
-    struct BoxOfRaster
-    {
-      std::vector<double> lower, ///< corner, m; not yet of whole cells
-          upper;                 ///< corner, m; not yet of whole cells
-      double lowest,             ///< height of the raster, m
-          highest;               ///< height of the raster, m
-    };
-
-
-    /// How far above the ground's highest place the body may reach, m.
+    /// How far above the ground's highest place the body may reach, m; of one by an expression this is not known: a
+    /// quarter of the relief and ten cells.
     double room_for(const BodyParameters &body,
                     const BedParameters &bed,
                     const double highest,
@@ -40,36 +32,13 @@ namespace scree
     }
 
 
-    /// The box that a bed's raster asks for: its outline, two cells below the lowest height, and four cells above the
-    /// highest soil. How high a body reaches that is given by an expression is not known: room for it is a quarter of
-    /// the relief and ten cells. Throws EntryError if a file cannot be read or has no heights.
-    BoxOfRaster
-    box_of_raster(const BedParameters &bed, const std::vector<BodyParameters> &bodies, const double cell_size)
-    {
-      const Raster raster          = read_raster(bed.raster(), entry_name(bed.subsection, "Raster"), bed.map_origin);
-      const auto [lowest, highest] = raster.range();
-      require_entry(lowest <= highest,
-                    { bed.subsection, "Raster", bed.raster() },
-                    "all its heights are missing (NODATA). Look at the file.");
-      double room = 0.;
-      for (const BodyParameters &body : bodies)
-        room = std::max(room, room_for(body, bed, highest, highest - lowest, cell_size));
-      const double floor = cell_size * (std::floor(lowest / cell_size) - 2.);
-      return { { raster.x, raster.y, floor },
-               { raster.last_x(), raster.last_y(), highest + room + 4. * cell_size },
-               lowest,
-               highest };
-    }
-
-
     /// Numbers as they must be written to be the same when they are read again, within 15 digits.
     std::string exact_text(const std::vector<double> &numbers)
     {
-      std::ostringstream text;
-      text.precision(15);
-      for (std::size_t i = 0; i < numbers.size(); ++i)
-        text << (i == 0 ? "" : ", ") << numbers[i];
-      return text.str();
+      std::vector<std::string> words;
+      for (const double number : numbers)
+        words.push_back(formatted("%.15g", number));
+      return boost::algorithm::join(words, ", ");
     }
 
 
@@ -133,7 +102,7 @@ namespace scree
                              ", but that of " + source + " is " + name_of_system(system) +
                              ". All maps of a case must have the same one: " + map.remedy);
         }
-      if (parameters.output.maps.write && parameters.output.maps.writes_geo_tiff() && !system.empty())
+      if (parameters.output.maps.write && parameters.output.maps.format != "ASCII grid" && !system.empty())
         require_system_in_metres(system, source + ": its coordinate system is " + name_of_system(system) + ": ");
       return system;
     }
@@ -381,19 +350,27 @@ namespace scree
     if (bed.raster().empty() || dimension != 3 || file.sets("Mesh", "Lower corner") ||
         file.sets("Mesh", "Upper corner"))
       return;
-    const BoxOfRaster box     = box_of_raster(bed, bodies, grid.cell_size);
-    std::vector<double> upper = box.upper;
+    const Raster raster          = read_raster(bed.raster(), entry_name(bed.subsection, "Raster"), bed.map_origin);
+    const auto [lowest, highest] = raster.range();
+    require_entry(lowest <= highest,
+                  { bed.subsection, "Raster", bed.raster() },
+                  "all its heights are missing (NODATA). Look at the file.");
+    double room = 0.;
+    for (const BodyParameters &body : bodies)
+      room = std::max(room, room_for(body, bed, highest, highest - lowest, grid.cell_size));
+    const std::vector<double> lower{ raster.x, raster.y, grid.cell_size * (std::floor(lowest / grid.cell_size) - 2.) };
+    std::vector<double> upper{ raster.last_x(), raster.last_y(), highest + room + 4. * grid.cell_size };
     for (unsigned int a = 0; a < 3; ++a)
       {
         // Along the map the ground must cover whole cells; along z there may be more of them.
-        const double cells = (upper[a] - box.lower[a]) / grid.cell_size;
-        upper[a] = box.lower[a] + grid.cell_size * (a < 2 ? std::floor(cells + 1e-6) : std::ceil(cells - 1e-6));
+        const double cells = (upper[a] - lower[a]) / grid.cell_size;
+        upper[a]           = lower[a] + grid.cell_size * (a < 2 ? std::floor(cells + 1e-6) : std::ceil(cells - 1e-6));
       }
-    text_of_box = "Box from the raster, in whole cells: from " + number_text(box.lower) + " to " + number_text(upper) +
-                  " m; the raster reaches from " + number_text({ box.lower[0], box.lower[1] }) + " to " +
-                  number_text({ box.upper[0], box.upper[1] }) + " m, its heights from " + number_text(box.lowest) +
-                  " to " + number_text(box.highest) + " m";
-    set("Mesh", "Lower corner", exact_text(box.lower));
+    text_of_box = "Box from the raster, in whole cells: from " + number_text(lower) + " to " + number_text(upper) +
+                  " m; the raster reaches from " + number_text({ raster.x, raster.y }) + " to " +
+                  number_text({ raster.last_x(), raster.last_y() }) + " m, its heights from " + number_text(lowest) +
+                  " to " + number_text(highest) + " m";
+    set("Mesh", "Lower corner", exact_text(lower));
     set("Mesh", "Upper corner", exact_text(upper));
   }
 

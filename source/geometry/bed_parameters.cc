@@ -98,37 +98,32 @@ namespace scree
 
   void BedParameters::check(const unsigned int dim) const
   {
-    const auto require = [this](const bool possible, const auto &entry, const std::string &remedy) {
-      require_entry(possible, { subsection, entry.first, entry.second }, remedy);
-    };
+    const auto require =
+        [this](const bool possible, const std::string &entry, const auto &value, const std::string &remedy) {
+          require_entry(possible, { subsection, entry, value }, remedy);
+        };
     const auto given    = geometry();
     const bool is_rough = type_kind() == BedType::friction;
     const auto n_given =
         std::count_if(shapes.begin(), shapes.end(), [](const auto &shape) { return !shape.second.empty(); });
-    const auto type_entry = std::make_pair(std::string("Type"), type);
-    require(is_rough || friction_angle == 0.,
-            std::make_pair(std::string("Friction angle"), friction_angle),
-            "this entry has no effect. Remove it, or write \"Type = friction\".");
+    const std::string no_friction = "this entry has no effect. Remove it, or write \"Type = friction\".",
+                      no_type = "\"Type = none\" does not take this entry. Choose another type, or remove the entry.";
+    require(is_rough || friction_angle == 0., "Friction angle", friction_angle, no_friction);
     require(!is_rough || friction_angle > 0.,
-            std::make_pair(std::string("Friction angle"), friction_angle),
+            "Friction angle",
+            friction_angle,
             "write an angle above 0, in degrees, or \"Type = free slip\".");
-    require(is_rough || turbulent_friction == 0.,
-            std::make_pair(std::string("Turbulent friction"), turbulent_friction),
-            "this entry has no effect. Remove it, or write \"Type = friction\".");
-    require(is_set() || n_given == 0,
-            given,
-            "\"Type = none\" does not take this entry. Choose another type, or remove the entry.");
-    require(is_set() || !no_slip(),
-            std::make_pair(std::string("Type for water"), for_water),
-            "\"Type = none\" does not take this entry. Choose another type, or remove the entry.");
+    require(is_rough || turbulent_friction == 0., "Turbulent friction", turbulent_friction, no_friction);
+    require(is_set() || n_given == 0, given.first, given.second, no_type);
+    require(is_set() || !no_slip(), "Type for water", for_water, no_type);
     if (!is_set())
       return;
-    require(n_given > 0, type_entry, "the surface has no geometry. Write one of " + names_of_shapes() + '.');
-    require(n_given < 2, given, "it is given twice. Keep one of " + names_of_shapes() + '.');
+    require(n_given > 0, "Type", type, "the surface has no geometry. Write one of " + names_of_shapes() + '.');
+    require(n_given < 2, given.first, given.second, "it is given twice. Keep one of " + names_of_shapes() + '.');
     for (const auto &[entry, shape] : rigid_shapes())
       if (entry == given.first)
         {
-          require(dim == 2 ? bool(shape.make_2d) : bool(shape.make_3d), given, shape.remedy);
+          require(dim == 2 ? bool(shape.make_2d) : bool(shape.make_3d), entry, given.second, shape.remedy);
           if (shape.value == ShapeValue::text)
             dim == 2 ? void(make_shape<2>(*this, {}, {}, 1.)) : void(make_shape<3>(*this, {}, {}, 1.));
         }
@@ -278,21 +273,14 @@ namespace scree
 
   namespace
   {
-    /// Reads the points "x, y", m, by read_number_table().
-    Profile read_profile(const std::string &file, const std::string &where)
-    {
-      std::vector<Point<2>> points;
-      for (const auto &row : read_number_table(file, where, { "x (m)", "y (m)" }))
-        points.emplace_back(row[0], row[1]);
-      return Profile(points);
-    }
-
-
+    /// Reads the points "x, y", m.
     std::unique_ptr<LevelSet<2>> make_profile(const ShapeRequest &request)
     {
-      auto profile = std::make_unique<Profile>(read_profile(request.value, request.where()));
-      request.require_cover(0, profile->first_x(), profile->last_x(), 0.);
-      return profile;
+      std::vector<Point<2>> points;
+      for (const auto &row : read_number_table(request.value, request.where(), { "x (m)", "y (m)" }))
+        points.emplace_back(row[0], row[1]);
+      request.require_cover(0, points.front()[0], points.back()[0], 0.);
+      return std::make_unique<Profile>(std::move(points));
     }
 
 

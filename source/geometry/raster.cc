@@ -23,27 +23,6 @@ namespace scree
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Keeps GDAL from writing on the screen what a message contains in any case, as long as it lives.
-    class QuietGdal
-    {
-    public:
-      /// Silences GDAL.
-      QuietGdal()
-      {
-        CPLPushErrorHandler(CPLQuietErrorHandler);
-      }
-      QuietGdal(const QuietGdal &) = delete; ///< the handlers are a stack
-
-      /// Lets GDAL write as before.
-      ~QuietGdal()
-      {
-        CPLPopErrorHandler();
-      }
-    };
-  } // namespace
-
   std::pair<double, double> Raster::range() const
   {
     std::pair<double, double> result(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
@@ -92,9 +71,10 @@ namespace scree
           if (row + 1 < n_rows)
             compare({ column, row + 1 }, place);
         }
-    const std::size_t missing = n_missing();
-    const auto text           = [this](const Place &place) { return text_of(place.first, place.second); };
-    if (missing == values.size())
+    const auto missing =
+        std::count_if(values.begin(), values.end(), [](const double value) { return std::isnan(value); });
+    const auto text = [this](const Place &place) { return text_of(place.first, place.second); };
+    if (missing == long(values.size()))
       return name + ": all heights of the raster are missing (NODATA). " + where_missing;
     std::string result = name + ": heights of the raster from " + text(lowest) + " to " + text(highest);
     if (missing > 0)
@@ -112,52 +92,36 @@ namespace scree
   }
 
 
+  double Raster::value_at(const double x, const double y, const double missing) const
+  {
+    const double u = (x - this->x) / spacing, v = (y - this->y) / spacing;
+    const double i = std::floor(u), j = std::floor(v);
+    double sum = 0.;
+    for (const unsigned int right : { 0, 1 })
+      for (const unsigned int up : { 0, 1 })
+        {
+          const double weight = (right ? u - i : 1. - (u - i)) * (up ? v - j : 1. - (v - j));
+          const double column = i + right, row = j + up;
+          const bool is_there = column >= 0 && column < n_columns && row >= 0 && row < n_rows;
+          const double value =
+              is_there ? (*this)(static_cast<unsigned int>(column), static_cast<unsigned int>(row)) : missing;
+          if (weight > 0.)
+            sum += weight * (std::isnan(value) ? missing : value);
+        }
+    return sum;
+  }
+
+
   namespace
   {
-    /// Bilinear between the four values around a place; `missing` makes a number of one that is NaN.
-    template <typename Missing>
-    double bilinear(const Raster &raster, const double x, const double y, const Missing &missing)
+    /// Keeps GDAL from writing on the screen what a message contains in any case, as long as the result lives.
+    std::shared_ptr<void> silence_gdal()
     {
-      const double u = (x - raster.x) / raster.spacing, v = (y - raster.y) / raster.spacing;
-      const double i = std::floor(u), j = std::floor(v);
-      double sum = 0.;
-      for (const unsigned int right : { 0, 1 })
-        for (const unsigned int up : { 0, 1 })
-          {
-            const double weight = (right ? u - i : 1. - (u - i)) * (up ? v - j : 1. - (v - j));
-            const double column = i + right, row = j + up;
-            const bool is_there = column >= 0 && column < raster.n_columns && row >= 0 && row < raster.n_rows;
-            if (weight > 0.)
-              sum +=
-                  weight * missing(is_there ? raster(static_cast<unsigned int>(column), static_cast<unsigned int>(row))
-                                            : std::numeric_limits<double>::quiet_NaN());
-          }
-      return sum;
+      CPLPushErrorHandler(CPLQuietErrorHandler);
+      return { nullptr, [](void *) { CPLPopErrorHandler(); } };
     }
-  } // namespace
 
 
-  double Raster::value_at(const double x, const double y) const
-  {
-    return bilinear(*this, x, y, [](const double value) { return value; });
-  }
-
-
-  double Raster::value_or_zero_at(const double x, const double y) const
-  {
-    return bilinear(*this, x, y, [](const double value) { return std::isnan(value) ? 0. : value; });
-  }
-
-
-  std::string name_of_system(const std::string &system)
-  {
-    const auto begin = system.find('"'), end = system.find('"', begin + 1);
-    return begin == std::string::npos || end == std::string::npos ? system : system.substr(begin + 1, end - begin - 1);
-  }
-
-
-  namespace
-  {
     /// Programs differ in blanks, signs and case: `CH1903+ / LV95`, `CH1903+_LV95`.
     std::string letters_of_name(const std::string &system)
     {
@@ -181,43 +145,6 @@ namespace scree
     }
 
 
-    /// Whether the coordinates of a place in one system are, within 1 mm, those in the other one.
-    bool has_same_coordinates(const OGRSpatialReference &one, const OGRSpatialReference &other, double x, double y)
-    {
-      const std::unique_ptr<OGRCoordinateTransformation> transformation(
-          OGRCreateCoordinateTransformation(&one, &other));
-      const double x_before = x, y_before = y;
-      return transformation && transformation->Transform(1, &x, &y) && std::hypot(x - x_before, y - y_before) < 1e-3;
-    }
-  } // namespace
-
-
-  bool is_same_system(const std::string &one, const std::string &other, const dealii::Point<2> &place)
-  {
-    // Names are no proof: projections of one's own are often called "unknown".
-    const QuietGdal quiet;
-    if (const auto first = known_system(one), second = known_system(other); first && second)
-      return first->IsSame(&*second) || has_same_coordinates(*first, *second, place[0], place[1]);
-    return letters_of_name(one) == letters_of_name(other);
-  }
-
-
-  void require_system_in_metres(const std::string &text, const std::string &name)
-  {
-    const QuietGdal quiet;
-    const auto system = known_system(text);
-    if (!system)
-      throw EntryError(name + "GDAL knows no such system. Write the code of a projected one, such as EPSG:2056.");
-    if (!system->IsProjected())
-      throw EntryError(name + "it is no projected system. Write one with coordinates in m, such as EPSG:2056.");
-    if (const double unit = system->GetLinearUnits(); std::abs(unit - 1.) > 1e-9)
-      throw EntryError(name + "its unit of length is " + number_text(unit) +
-                       " m. Write a system with coordinates in m, such as EPSG:2056.");
-  }
-
-
-  namespace
-  {
     /// The text of a .prj file; empty if GDAL cannot write the system so.
     std::string esri_text(const OGRSpatialReference &system)
     {
@@ -243,11 +170,47 @@ namespace scree
   } // namespace
 
 
+  std::string name_of_system(const std::string &system)
+  {
+    const auto begin = system.find('"'), end = system.find('"', begin + 1);
+    return begin == std::string::npos || end == std::string::npos ? system : system.substr(begin + 1, end - begin - 1);
+  }
+
+
+  bool is_same_system(const std::string &one, const std::string &other, const dealii::Point<2> &place)
+  {
+    // Names are no proof: projections of one's own are often called "unknown".
+    const auto quiet = silence_gdal();
+    const auto first = known_system(one), second = known_system(other);
+    if (!first || !second)
+      return letters_of_name(one) == letters_of_name(other);
+    const std::unique_ptr<OGRCoordinateTransformation> transformation(
+        OGRCreateCoordinateTransformation(&*first, &*second));
+    double x = place[0], y = place[1];
+    return first->IsSame(&*second) ||
+           (transformation && transformation->Transform(1, &x, &y) && place.distance({ x, y }) < 1e-3);
+  }
+
+
+  void require_system_in_metres(const std::string &text, const std::string &name)
+  {
+    const auto quiet  = silence_gdal();
+    const auto system = known_system(text);
+    if (!system)
+      throw EntryError(name + "GDAL knows no such system. Write the code of a projected one, such as EPSG:2056.");
+    if (!system->IsProjected())
+      throw EntryError(name + "it is no projected system. Write one with coordinates in m, such as EPSG:2056.");
+    if (const double unit = system->GetLinearUnits(); std::abs(unit - 1.) > 1e-9)
+      throw EntryError(name + "its unit of length is " + number_text(unit) +
+                       " m. Write a system with coordinates in m, such as EPSG:2056.");
+  }
+
+
   std::string prj_text(const std::string &text)
   {
     if (text.find('[') != std::string::npos)
       return text;
-    const QuietGdal quiet;
+    const auto quiet  = silence_gdal();
     const auto system = known_system(text);
     return system ? esri_text(*system) : "";
   }
@@ -288,66 +251,16 @@ namespace scree
       CPLFree(confidence);
       return system;
     }
-  } // namespace
 
 
-  std::string geo_tiff(const Raster &raster, const std::string &name, const std::string &unit)
-  {
-    GDALAllRegister();
-    const QuietGdal quiet;
-    const char *const file = "/vsimem/scree_map.tif"; // in memory
-    const char *options[]  = { "COMPRESS=DEFLATE", nullptr };
-    std::unique_ptr<GDALDataset> data(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-        file, raster.n_columns, raster.n_rows, 1, GDT_Float32, const_cast<char **>(options)));
-    AssertThrow(data, dealii::ExcMessage("GDAL cannot make a GeoTIFF: " + std::string(CPLGetLastErrorMsg())));
-    double map[6] = {
-      raster.x - 0.5 * raster.spacing, raster.spacing, 0., raster.last_y() + 0.5 * raster.spacing, 0., -raster.spacing
-    };
-    data->SetGeoTransform(map);
-    if (!raster.system.empty())
-      {
-        const OGRSpatialReference system = system_of(raster);
-        data->SetSpatialRef(&system);
-      }
-    GDALRasterBand &band = *data->GetRasterBand(1);
-    band.SetNoDataValue(missing_value);
-    band.SetDescription(name.c_str());
-    band.SetUnitType(unit.c_str());
-    std::vector<float> values(raster.n_columns);
-    bool is_written = true;
-    for (unsigned int row = 0; row < raster.n_rows; ++row) // from the north
-      {
-        for (unsigned int column = 0; column < raster.n_columns; ++column)
-          {
-            const double value = raster(column, raster.n_rows - 1 - row);
-            values[column]     = static_cast<float>(std::isnan(value) ? missing_value : value);
-          }
-        is_written = band.RasterIO(GF_Write,
-                                   0,
-                                   row,
-                                   raster.n_columns,
-                                   1,
-                                   values.data(),
-                                   raster.n_columns,
-                                   1,
-                                   GDT_Float32,
-                                   0,
-                                   0,
-                                   nullptr) == CE_None &&
-                     is_written;
-      }
-    data.reset(); // completes the file
-    vsi_l_offset size = 0;
-    GByte *bytes      = VSIGetMemFileBuffer(file, &size, TRUE);
-    const std::string content(reinterpret_cast<const char *>(bytes), bytes ? size : 0);
-    VSIFree(bytes);
-    AssertThrow(is_written && bytes, dealii::ExcMessage("GDAL has no room for a GeoTIFF."));
-    return content;
-  }
+    /// Turns the order of the rows round: files begin in the north.
+    void flip_rows(std::vector<double> &values, const std::size_t n_columns)
+    {
+      for (auto first = values.begin(), last = values.end(); last - first >= 2 * long(n_columns); first += n_columns)
+        std::swap_ranges(first, first + n_columns, last -= n_columns);
+    }
 
 
-  namespace
-  {
     void require_metres(const OGRSpatialReference &system, const std::string &name)
     {
       if (system.IsGeographic())
@@ -449,49 +362,70 @@ namespace scree
     }
 
 
-    /// Reads the first band, or the values of a text, whose first row is in the north or the south; what its mask hides
-    /// is NaN.
-    void read_values(GDALDataset &data,
-                     const std::vector<double> &text,
-                     const bool from_north,
-                     const std::string &name,
-                     Raster &raster)
+    /// The values of a band in the order of the file; what its mask hides is NaN.
+    std::vector<double> values_of_band(GDALRasterBand &band, const std::string &name)
     {
-      // The value for missing ones may be rounded otherwise than theirs; no height is as large as 1e30 m.
-      constexpr double rounding = 1e-7, largest = 1e30;
-      GDALRasterBand &band = *data.GetRasterBand(1);
-      int has_missing;
-      const double marked  = band.GetNoDataValue(&has_missing);
-      const double missing = has_missing && !std::isnan(marked) ? marked : missing_value;
-      raster.values.resize(std::size_t(raster.n_columns) * raster.n_rows);
-      std::vector<GByte> mask(raster.n_columns, 1);
-      const int width = raster.n_columns;
-      for (unsigned int row = 0; row < raster.n_rows; ++row)
-        {
-          double *values = &raster.values[std::size_t(from_north ? raster.n_rows - 1 - row : row) * width];
-          if (!text.empty())
-            std::copy_n(text.begin() + std::size_t(row) * width, width, values);
-          else if (band.RasterIO(GF_Read, 0, row, width, 1, values, width, 1, GDT_Float64, 0, 0, nullptr) != CE_None ||
-                   band.GetMaskBand()->RasterIO(
-                       GF_Read, 0, row, width, 1, mask.data(), width, 1, GDT_Byte, 0, 0, nullptr) != CE_None)
-            throw EntryError(name + "GDAL cannot read row " + std::to_string(row + 1) + ": " + CPLGetLastErrorMsg() +
-                             ". Write the raster anew.");
-          for (unsigned int column = 0; column < raster.n_columns; ++column)
-            values[column] = mask[column] == 0 || !(std::abs(values[column]) < largest) ||
-                                     std::abs(values[column] - missing) <= rounding * std::abs(missing)
-                                 ? std::numeric_limits<double>::quiet_NaN()
-                                 : band.GetScale() * values[column] + band.GetOffset();
-        }
+      const int width = band.GetXSize(), height = band.GetYSize();
+      std::vector<double> values(std::size_t(width) * height);
+      std::vector<GByte> mask(values.size());
+      GDALRasterBand &of_mask = *band.GetMaskBand();
+      if (band.RasterIO(GF_Read, 0, 0, width, height, values.data(), width, height, GDT_Float64, 0, 0, nullptr) ||
+          of_mask.RasterIO(GF_Read, 0, 0, width, height, mask.data(), width, height, GDT_Byte, 0, 0, nullptr))
+        throw EntryError(name + "GDAL cannot read it: " + CPLGetLastErrorMsg() + ". Write the raster anew.");
+      for (std::size_t i = 0; i < values.size(); ++i)
+        if (mask[i] == 0)
+          values[i] = std::numeric_limits<double>::quiet_NaN();
+      return values;
     }
   } // namespace
+
+
+  std::string geo_tiff(const Raster &raster, const std::string &name, const std::string &unit)
+  {
+    GDALAllRegister();
+    const auto quiet       = silence_gdal();
+    const char *const file = "/vsimem/scree_map.tif"; // in memory
+    const char *options[]  = { "COMPRESS=DEFLATE", nullptr };
+    std::unique_ptr<GDALDataset> data(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+        file, raster.n_columns, raster.n_rows, 1, GDT_Float32, const_cast<char **>(options)));
+    AssertThrow(data, dealii::ExcMessage("GDAL cannot make a GeoTIFF: " + std::string(CPLGetLastErrorMsg())));
+    double map[6] = {
+      raster.x - 0.5 * raster.spacing, raster.spacing, 0., raster.last_y() + 0.5 * raster.spacing, 0., -raster.spacing
+    };
+    data->SetGeoTransform(map);
+    if (!raster.system.empty())
+      {
+        const OGRSpatialReference system = system_of(raster);
+        data->SetSpatialRef(&system);
+      }
+    GDALRasterBand &band = *data->GetRasterBand(1);
+    band.SetNoDataValue(missing_value);
+    band.SetDescription(name.c_str());
+    band.SetUnitType(unit.c_str());
+    std::vector<double> values = raster.values;
+    std::replace_if(
+        values.begin(), values.end(), [](const double value) { return std::isnan(value); }, missing_value);
+    flip_rows(values, raster.n_columns);
+    const int width = raster.n_columns, height = raster.n_rows;
+    const bool is_written =
+        band.RasterIO(GF_Write, 0, 0, width, height, values.data(), width, height, GDT_Float64, 0, 0, nullptr) ==
+        CE_None;
+    data.reset(); // completes the file
+    vsi_l_offset size = 0;
+    GByte *bytes      = VSIGetMemFileBuffer(file, &size, TRUE);
+    const std::string content(reinterpret_cast<const char *>(bytes), bytes ? size : 0);
+    VSIFree(bytes);
+    AssertThrow(is_written && bytes, dealii::ExcMessage("GDAL has no room for a GeoTIFF."));
+    return content;
+  }
 
 
   Raster read_raster(const std::string &file, const std::string &where, const dealii::Point<2> &origin)
   {
     const std::string name = where + " = " + file + ": ";
     std::ifstream in       = open_text(file, name);
-    const QuietGdal quiet;
-    const auto data = open(in, file, name);
+    const auto quiet       = silence_gdal();
+    const auto data        = open(in, file, name);
     if (const OGRSpatialReference *system = data->GetSpatialRef())
       require_metres(*system, name);
     require_values_in_metres(*data, name);
@@ -507,16 +441,27 @@ namespace scree
     raster.n_rows    = data->GetRasterYSize();
     if (raster.n_columns < 2 || raster.n_rows < 2)
       throw EntryError(name + "it must have 2 columns and 2 rows at least.");
-    std::vector<double> text;
-    if (data->GetDriverName() == std::string("AAIGrid"))
-      text = values_of_text(in, std::size_t(raster.n_columns) * raster.n_rows, name);
     const bool from_north = map[5] < 0.;
     raster.spacing        = map[1];
     raster.x              = map[0] + 0.5 * map[1] - origin[0];
     raster.y              = map[3] + (from_north ? raster.n_rows - 0.5 : 0.5) * map[5] - origin[1];
     raster.system         = system_of(*data, file);
 
-    read_values(*data, text, from_north, name, raster);
+    GDALRasterBand &band = *data->GetRasterBand(1);
+    raster.values        = data->GetDriverName() == std::string("AAIGrid")
+                               ? values_of_text(in, std::size_t(raster.n_columns) * raster.n_rows, name)
+                               : values_of_band(band, name);
+    if (from_north)
+      flip_rows(raster.values, raster.n_columns);
+    // The value for missing ones may be rounded otherwise than theirs; no height is as large as 1e30 m.
+    constexpr double rounding = 1e-7, largest = 1e30;
+    int has_missing;
+    const double marked  = band.GetNoDataValue(&has_missing);
+    const double missing = has_missing && !std::isnan(marked) ? marked : missing_value;
+    for (double &value : raster.values)
+      value = std::abs(value) < largest && std::abs(value - missing) > rounding * std::abs(missing)
+                  ? band.GetScale() * value + band.GetOffset()
+                  : std::numeric_limits<double>::quiet_NaN();
     return raster;
   }
 
@@ -525,18 +470,15 @@ namespace scree
   {
     const std::string name = where + " = " + file + ": ";
     std::ifstream in       = open_text(file, name);
-    const QuietGdal quiet;
+    const auto quiet       = silence_gdal();
     return system_of(*open(in, file, name), file);
   }
 
 
   namespace
   {
-    /// Twice the area of the triangle, positive if it is to the left of a to b.
-    double area(const Point<2> &a, const Point<2> &b, const Point<2> &c)
-    {
-      return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    }
+    /// Corners of closed lines, m on the map: of an area, the edge and the holes.
+    using Rings = std::vector<Outline::Ring>;
 
 
     /// Whether two edges have a place in common.
@@ -545,117 +487,37 @@ namespace scree
       for (unsigned int i = 0; i < 2; ++i)
         if (std::max(a[i], b[i]) < std::min(c[i], d[i]) || std::max(c[i], d[i]) < std::min(a[i], b[i]))
           return false;
-      const auto on_both_sides = [](const double one, const double other) {
-        return !((one > 0. && other > 0.) || (one < 0. && other < 0.));
+      // The sign is the side of the line from one place to another.
+      const auto side = [](const Point<2> &from, const Point<2> &to, const Point<2> &x) {
+        const double area = (to[0] - from[0]) * (x[1] - from[1]) - (to[1] - from[1]) * (x[0] - from[0]);
+        return (area > 0.) - (area < 0.);
       };
-      return on_both_sides(area(a, b, c), area(a, b, d)) && on_both_sides(area(c, d, a), area(c, d, b));
+      return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0;
     }
-  } // namespace
 
 
-  Polygon::Polygon(std::vector<Point<2>> corners)
-      : corners(std::move(corners))
-      , lower(this->corners.front())
-      , upper(lower)
-  {
-    for (const Point<2> &corner : this->corners)
-      for (unsigned int a = 0; a < 2; ++a)
-        {
-          lower[a] = std::min(lower[a], corner[a]);
-          upper[a] = std::max(upper[a], corner[a]);
-        }
-  }
-
-
-  bool Polygon::contains(const Point<2> &x) const
-  {
-    for (unsigned int a = 0; a < 2; ++a)
-      if (x[a] < lower[a] || x[a] > upper[a])
-        return false;
-    bool is_inside = false; // a ray along x crosses an odd number of edges
-    for (unsigned int i = 0; i < corners.size(); ++i)
-      {
-        const Point<2> &a = corner(i), &b = corner(i + 1);
-        if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
-          is_inside = !is_inside;
-      }
-    return is_inside;
-  }
-
-
-  unsigned int Polygon::first_crossing() const
-  {
-    const unsigned int n = corners.size();
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = i + 2; j < n; ++j)
-        if ((j + 1) % n != i && meet(corner(i), corner(i + 1), corner(j), corner(j + 1)))
-          return i;
-    return n;
-  }
-
-
-  namespace
-  {
-    /// The polygon of these corners, m; the last may repeat the first. Throws EntryError, which begins with `name`, if
-    /// they are fewer than three, or if edges cross.
-    Polygon checked_polygon(std::vector<Point<2>> corners, const std::string &name)
+    /// Closes a ring of corners, m on the map, and moves it; the last may repeat the first. Throws EntryError, which
+    /// begins with `name`, if they are fewer than three, or if edges cross or touch.
+    /// @param origin of the case's coordinates
+    Outline::Ring closed_ring(Outline::Ring corners, const std::string &name, const Point<2> &origin)
     {
+      for (Point<2> &corner : corners)
+        corner -= origin - Point<2>();
+      if (!corners.empty())
+        corners.push_back(corners.front());
       corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-      if (corners.size() > 1 && corners.front() == corners.back())
-        corners.pop_back();
-      if (corners.size() < 3)
-        throw EntryError(name + "it has " + std::to_string(corners.size()) +
+      const unsigned int n = std::max<std::size_t>(corners.size(), 2) - 1; // edges
+      if (n < 3)
+        throw EntryError(name + "it has " + std::to_string(n) +
                          " corners. Write three or more, x, y in m, one a line, in their order around the place.");
-      const Polygon polygon(corners);
-      const unsigned int edge = polygon.first_crossing();
-      if (edge < corners.size())
-        throw EntryError(name + "its edge from " + number_text(corners[edge]) +
-                         " m is crossed or touched by another. Write the corners in their order around the place.");
-      return polygon;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = i + 2; j < n; ++j)
+          if ((j + 1) % n != i && meet(corners[i], corners[i + 1], corners[j], corners[j + 1]))
+            throw EntryError(name + "its edge from " + number_text(corners[i]) +
+                             " m is crossed or touched by another. Write the corners in their order around the place.");
+      return corners;
     }
 
-
-    /// Reads the corners "x, y", m, one a line; the last may repeat the first. Throws EntryError, which begins with
-    /// `where` (see entry_name()), if they are fewer than three, or if edges cross.
-    /// @param origin where the map has the origin of the polygon's x and y, m
-    Polygon read_polygon(const std::string &file, const std::string &where, const Point<2> &origin)
-    {
-      const std::string name = where + " = " + file + ": ";
-      std::vector<Point<2>> corners;
-      for (const auto &row : read_number_table(file, where, { "x (m)", "y (m)" }, FirstColumn::any))
-        corners.emplace_back(row[0] - origin[0], row[1] - origin[1]);
-      return checked_polygon(std::move(corners), name);
-    }
-  } // namespace
-
-
-  bool Outline::contains(const Point<2> &x) const
-  {
-    const auto has_place = [&](const Polygon &polygon) { return polygon.contains(x); };
-    return std::any_of(areas.begin(), areas.end(), [&](const auto &area) {
-      return area.front().contains(x) && std::none_of(area.begin() + 1, area.end(), has_place);
-    });
-  }
-
-
-  std::pair<Point<2>, Point<2>> Outline::bounds() const
-  {
-    auto [lower, upper] = areas.front().front().bounds();
-    for (const auto &area : areas)
-      for (unsigned int a = 0; a < 2; ++a)
-        {
-          lower[a] = std::min(lower[a], area.front().bounds().first[a]);
-          upper[a] = std::max(upper[a], area.front().bounds().second[a]);
-        }
-    return { lower, upper };
-  }
-
-
-  namespace
-  {
-    /// Corners of closed lines, m on the map, the first one of each at its end again: of an area, the edge and the
-    /// holes.
-    using Rings = std::vector<std::vector<Point<2>>>;
 
     std::unique_ptr<GDALDataset> open(const std::string &file, const std::string &name)
     {
@@ -709,8 +571,8 @@ namespace scree
     /// none or anything else.
     std::vector<Rings> read_polygons(const std::string &file, const std::string &name)
     {
-      const QuietGdal quiet;
-      const auto data = open(file, name);
+      const auto quiet = silence_gdal();
+      const auto data  = open(file, name);
       std::vector<Rings> areas;
       for (const auto &feature : only_layer(*data, name))
         if (const OGRGeometry *geometry = feature->GetGeometryRef(); geometry != nullptr && !geometry->IsEmpty())
@@ -724,7 +586,7 @@ namespace scree
     /// The coordinate system of such a file; empty if it has none.
     std::string system_of_vector_file(const std::string &file, const std::string &name)
     {
-      const QuietGdal quiet;
+      const auto quiet                  = silence_gdal();
       const auto data                   = open(file, name);
       OGRLayer &layer                   = only_layer(*data, name);
       const OGRSpatialReference *system = layer.GetSpatialRef();
@@ -744,7 +606,7 @@ namespace scree
     bool is_vector_file(const std::string &file)
     {
       GDALAllRegister();
-      const QuietGdal quiet;
+      const auto quiet         = silence_gdal();
       const std::string ending = lower_case(std::filesystem::path(file).extension().string());
       const GDALDriverH driver = GDALIdentifyDriverEx(file.c_str(), GDAL_OF_VECTOR, nullptr, nullptr);
       return (driver != nullptr && GDALGetDriverShortName(driver) != std::string("CSV")) || ending == ".geojson" ||
@@ -753,27 +615,48 @@ namespace scree
   } // namespace
 
 
+  Outline::Outline(std::vector<std::vector<Ring>> areas)
+      : areas(std::move(areas))
+      , box(std::make_pair(this->areas.front().front().front(), this->areas.front().front().front()))
+  {
+    for (const auto &area : this->areas)
+      box.merge_with(BoundingBox<2>(area.front()));
+  }
+
+
+  bool Outline::contains(const Point<2> &x) const
+  {
+    const auto is_inside = [&x](const Ring &ring) {
+      bool result = false; // a ray along x crosses an odd number of edges
+      for (unsigned int i = 1; i < ring.size(); ++i)
+        {
+          const Point<2> &a = ring[i - 1], &b = ring[i];
+          if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+            result = !result;
+        }
+      return result;
+    };
+    return box.point_inside(x) && std::any_of(areas.begin(), areas.end(), [&](const auto &area) {
+             return is_inside(area.front()) && std::none_of(area.begin() + 1, area.end(), is_inside);
+           });
+  }
+
+
   Outline read_outline(const std::string &file, const std::string &where, const Point<2> &origin)
   {
-    std::vector<std::vector<Polygon>> areas;
+    const std::string name = where + " = " + file + ": ";
     if (!is_vector_file(file))
       {
-        areas.push_back({ read_polygon(file, where, origin) });
-        return Outline(std::move(areas));
+        Outline::Ring corners;
+        for (const auto &row : read_number_table(file, where, { "x (m)", "y (m)" }, FirstColumn::any))
+          corners.emplace_back(row[0], row[1]);
+        return Outline({ { closed_ring(std::move(corners), name, origin) } });
       }
-    const std::string name = where + " = " + file + ": ";
     open_file(file, name);
-    for (const Rings &rings : read_polygons(file, name))
-      {
-        areas.emplace_back();
-        for (auto corners : rings)
-          {
-            for (Point<2> &corner : corners)
-              corner -= origin - Point<2>();
-            areas.back().push_back(
-                checked_polygon(std::move(corners), name + "polygon " + std::to_string(areas.size()) + ", "));
-          }
-      }
+    std::vector<Rings> areas = read_polygons(file, name);
+    for (std::size_t i = 0; i < areas.size(); ++i)
+      for (Outline::Ring &ring : areas[i])
+        ring = closed_ring(std::move(ring), name + "polygon " + std::to_string(i + 1) + ", ", origin);
     return Outline(std::move(areas));
   }
 

@@ -140,8 +140,6 @@ namespace scree
       static constexpr unsigned int n_vertices = 1 << dim;
       static constexpr unsigned int n_1d       = dim == 2 ? 4 : 3; // parts of a cell along an axis
       static constexpr unsigned int n_parts    = Utilities::pow(n_1d, dim);
-      static constexpr unsigned int n_wide     = n_1d + 2; // with one part around
-      static constexpr unsigned int n_around   = Utilities::pow(n_wide, dim);
 
       /// A cell with soil, divided into equal parts.
       struct Cell
@@ -163,87 +161,63 @@ namespace scree
         bool is_leaving = false;
       };
 
-      static std::array<unsigned int, dim> place_in_lattice(unsigned int number, const unsigned int n)
+      static std::array<int, dim> place_in_lattice(unsigned int part)
       {
-        std::array<unsigned int, dim> place;
-        for (unsigned int a = 0; a < dim; ++a, number /= n)
-          place[a] = number % n;
+        std::array<int, dim> place;
+        for (unsigned int a = 0; a < dim; ++a, part /= n_1d)
+          place[a] = part % n_1d;
         return place;
       }
 
-      static unsigned int number_around(const std::array<unsigned int, dim> &place)
+      /// The middle of a part of the cell with this lower corner, or of one beside the cell.
+      Point<dim> middle_of(const Point<dim> &corner, const std::array<int, dim> &part) const
       {
-        unsigned int number = 0;
-        for (unsigned int a = dim; a-- > 0;)
-          number = number * n_wide + place[a];
-        return number;
+        Point<dim> x = corner;
+        for (unsigned int a = 0; a < dim; ++a)
+          x[a] += grid.cell_size() / n_1d * (part[a] + 0.5);
+        return x;
       }
 
-      /// The kinds at the centres of the parts of a cell and one part around it. False: no soil is in the cell.
-      bool look_at(const Point<dim> &corner, std::array<int, n_around> &kinds) const
+      /// Whether a cell is not to be divided: in space, where there are many parts, that with the same kind in the
+      /// middle and at the corners of the parts around it.
+      bool is_uniform(const Point<dim> &corner) const
       {
-        const double width = grid.cell_size() / n_1d;
-        const auto kind_of = [&](const unsigned int part) {
-          const auto place = place_in_lattice(part, n_wide);
-          Point<dim> x     = corner;
-          for (unsigned int a = 0; a < dim; ++a)
-            x[a] += width * (place[a] - 0.5);
-          for (unsigned int f = 0; f < 2 * dim; ++f)
-            if (survey.is_beyond(x, f))
-              return SeepageSurvey<dim>::closed; // Walls are looked at apart.
-          return survey.kind(x);
-        };
-        // In space, where there are many parts, a cell with the same kind at its corners and in the middle is not
-        // divided.
-        if (dim == 3)
+        if (dim == 2)
+          return false;
+        const int middle = survey.kind(middle_of(corner, place_in_lattice(n_parts / 2)));
+        std::array<int, dim> part;
+        for (unsigned int v = 0; v < n_vertices; ++v)
           {
-            const int middle = kind_of(n_around / 2);
-            bool is_one      = true;
-            for (unsigned int v = 0; v < n_vertices && is_one; ++v)
-              {
-                std::array<unsigned int, dim> place;
-                for (unsigned int a = 0; a < dim; ++a)
-                  place[a] = (v >> a & 1) * (n_wide - 1);
-                is_one = kind_of(number_around(place)) == middle;
-              }
-            kinds.fill(middle);
-            if (is_one)
-              return middle >= 0;
+            for (unsigned int a = 0; a < dim; ++a)
+              part[a] = v >> a & 1 ? n_1d : -1;
+            if (survey.kind(middle_of(corner, part)) != middle)
+              return false;
           }
-        for (unsigned int part = 0; part < n_around; ++part)
-          kinds[part] = kind_of(part);
-        for (unsigned int q = 0; q < n_parts; ++q)
-          if (kinds[part_around(q)] >= 0)
-            return true;
-        return false;
-      }
-
-      /// Number of a part of the cell among those around, too.
-      static unsigned int part_around(const unsigned int q)
-      {
-        auto place = place_in_lattice(q, n_1d);
-        for (unsigned int &along : place)
-          ++along;
-        return number_around(place);
+        return true;
       }
 
       /// Lists the cells of this rank with soil, by the centres of their parts, and their faces.
       void find_soil()
       {
         const auto &box = grid.fine_cells().box();
-        std::array<int, n_around> kinds;
+        std::array<int, n_parts> kinds;
         for (const auto &of_mesh : dofs.active_cell_iterators())
           if (of_mesh->is_locally_owned() && holds_nodes(of_mesh))
             {
               Cell cell{ box.corner(box.place_of_corner(of_mesh->vertex(0))), {}, {}, {} };
-              if (!look_at(cell.corner, kinds))
+              const bool is_whole = is_uniform(cell.corner);
+              for (unsigned int q = 0; q < n_parts; ++q)
+                kinds[q] = survey.kind(middle_of(cell.corner, place_in_lattice(is_whole ? n_parts / 2 : q)));
+              if (*std::max_element(kinds.begin(), kinds.end()) < 0)
                 continue;
               cell.dofs.resize(n_vertices);
               of_mesh->get_dof_indices(cell.dofs);
               cell.relative.fill(1.);
-              for (unsigned int q = 0; q < n_parts; ++q)
-                cell.conductivity[q] = conductivity(kinds[part_around(q)]);
-              add_faces(kinds, cell.corner);
+              std::transform(kinds.begin(), kinds.end(), cell.conductivity.begin(), [&](const int kind) {
+                return conductivity(kind);
+              });
+              if (!is_whole)
+                add_faces(kinds, cell.corner);
               cells.push_back(cell);
             }
       }
@@ -254,7 +228,7 @@ namespace scree
       }
 
       /// Appends the faces of a cell in air, and those at walls of the box with a head, or drained.
-      void add_faces(const std::array<int, n_around> &kinds, const Point<dim> &corner)
+      void add_faces(const std::array<int, n_parts> &kinds, const Point<dim> &corner)
       {
         constexpr double least_flatness =
             0.6; // area of the plane over that of the steps, of one plane at most sqrt(dim)
@@ -263,17 +237,17 @@ namespace scree
         std::vector<std::pair<Face, unsigned int>> steps; // in air, with their axes
         Tensor<1, dim> normal, sum;
         for (unsigned int q = 0; q < n_parts; ++q)
-          if (const unsigned int part = part_around(q); kinds[part] >= 0)
-            for (unsigned int a = 0, stride = 1; a < dim; ++a, stride *= n_wide)
+          if (kinds[q] >= 0)
+            for (unsigned int a = 0; a < dim; ++a)
               for (const int side : { 0, 1 })
                 {
-                  const auto place = place_in_lattice(q, n_1d);
-                  Point<dim> x     = corner;
-                  for (unsigned int b = 0; b < dim; ++b)
-                    x[b] += width * (place[b] + (b == a ? side : 0.5));
-                  Point<dim> beyond = x;
-                  beyond[a] += side == 0 ? -width / 2 : width / 2;
-                  Face face{ unsigned(cells.size()), x, area, conductivity(kinds[part]), no_head };
+                  const auto place = place_in_lattice(q);
+                  auto neighbour   = place;
+                  neighbour[a] += side == 0 ? -1 : 1;
+                  Point<dim> x            = middle_of(corner, place);
+                  x[a]                    = corner[a] + width * (place[a] + side);
+                  const Point<dim> beyond = middle_of(corner, neighbour);
+                  Face face{ unsigned(cells.size()), x, area, conductivity(kinds[q]), no_head };
                   if (survey.is_beyond(beyond, 2 * a + side))
                     {
                       if (const auto head = survey.head_of_wall(2 * a + side, x[dim - 1]))
@@ -282,7 +256,7 @@ namespace scree
                           faces.push_back(face);
                         }
                     }
-                  else if (kinds[side == 0 ? part - stride : part + stride] == SeepageSurvey<dim>::air)
+                  else if (survey.kind(beyond) == SeepageSurvey<dim>::air)
                     {
                       steps.emplace_back(face, a);
                       normal[a] += side == 0 ? -1. : 1.;
@@ -601,6 +575,9 @@ namespace scree
   template <int dim>
   int SeepageSurvey<dim>::kind(const Point<dim> &x) const
   {
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      if (is_beyond(x, face))
+        return closed;
     if (ground != nullptr && !ground->is_open(x))
       return closed;
     for (unsigned int i = 0; i < regions.size(); ++i)

@@ -65,7 +65,12 @@ namespace scree
       const auto is_entry = [](const Tree &child) { return child.count("pattern_description") > 0; };
       for (const auto &[name, child] : tree)
         if (is_entry(child))
-          entries.push_back({ path, name, child.get<std::string>("value"), "" });
+          entries.push_back({ path,
+                              name,
+                              child.get<std::string>("value"),
+                              "",
+                              child.get<std::string>("pattern_description"),
+                              child.get<std::string>("documentation") });
       for (const auto &[name, child] : tree)
         if (!is_entry(child))
           collect(child, subsection_path(path, name), entries);

@@ -13,24 +13,6 @@ namespace scree
 
   namespace
   {
-    /// While it lives, nothing appears on the screen: deal.II's parser prints there before it throws.
-    class Silence
-    {
-    public:
-      Silence()
-          : screen(std::cerr.rdbuf(nullptr))
-      {
-      }
-      ~Silence()
-      {
-        std::cerr.rdbuf(screen);
-      }
-
-    private:
-      std::streambuf *screen;
-    };
-
-
     /// What muParser accepts and nobody means, a comma between no arguments and a single "=": it would go on with what
     /// follows the comma, and set the variable. Empty if there is neither.
     std::string misleading_sign(const std::string &text)
@@ -73,7 +55,9 @@ namespace scree
         return fault;
       try
         {
-          const Silence silence;
+          // Nothing appears on the screen, where deal.II's parser prints before it throws.
+          const std::unique_ptr<std::streambuf, void (*)(std::streambuf *)> screen(
+              std::cerr.rdbuf(nullptr), [](std::streambuf *buffer) { std::cerr.rdbuf(buffer); });
           // muParser reads an expression when it is first evaluated.
           function.initialize(variables, text, { { "pi", numbers::PI } }, with_time);
           for (unsigned int c = 0; c < n_components; ++c)

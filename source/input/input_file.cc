@@ -4,8 +4,6 @@
 #include <deal.II/base/table.h>
 #include <deal.II/base/utilities.h>
 
-#include <boost/property_tree/json_parser.hpp>
-
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -16,48 +14,33 @@ namespace scree
 
   namespace
   {
-    /// An entry or a subsection, which has neither pattern nor documentation.
-    struct Name
+    /// A subsection, or an entry with the same name, and the subsection in which it stands.
+    using Name = CaseEntry;
+
+    bool has_name(const std::vector<Name> &names, const std::string &path, const std::string &name)
     {
-      std::string path,  // of the subsection in which it stands
-          name,          // of entry or subsection
-          pattern,       // deal.II's description of allowed values
-          documentation; // text of the manual
-    };
+      return std::any_of(
+          names.begin(), names.end(), [&](const Name &one) { return one.subsection == path && one.name == name; });
+    }
 
-    /// What a ParameterHandler declares.
-    struct DeclaredNames
+    /// Adds a subsection behind those around it, unless it is there.
+    void add_subsection(const std::string &path, std::vector<Name> &subsections)
     {
-      std::vector<Name> entries, subsections;
+      const std::size_t slash  = path.rfind('/');
+      const std::string around = slash == std::string::npos ? "" : path.substr(0, slash);
+      if (path.empty() || has_name(subsections, around, path.substr(slash + 1)))
+        return;
+      add_subsection(around, subsections);
+      subsections.push_back({ around, path.substr(slash + 1) });
+    }
 
-      explicit DeclaredNames(const ParameterHandler &prm)
-      {
-        std::stringstream json;
-        prm.print_parameters(json, ParameterHandler::JSON);
-        boost::property_tree::ptree tree;
-        boost::property_tree::read_json(json, tree);
-        collect(tree, "");
-      }
-
-      /// Adds the names of a subsection and all in it.
-      void collect(const boost::property_tree::ptree &tree, const std::string &path)
-      {
-        for (const auto &[name, child] : tree)
-          if (const auto pattern = child.get_optional<std::string>("pattern_description"))
-            entries.push_back({ path, name, *pattern, child.get<std::string>("documentation") });
-          else
-            {
-              subsections.push_back({ path, name, "", "" });
-              collect(child, subsection_path(path, name));
-            }
-      }
-    };
-
-    const Name *find_name(const std::vector<Name> &names, const std::string &path, const std::string &name)
+    /// The subsections of entries, each once, in their order.
+    std::vector<Name> subsections_of(const CaseEntries &entries)
     {
-      const auto found =
-          std::find_if(names.begin(), names.end(), [&](const Name &n) { return n.path == path && n.name == name; });
-      return found == names.end() ? nullptr : &*found;
+      std::vector<Name> subsections;
+      for (const CaseEntry &entry : entries.all())
+        add_subsection(entry.subsection, subsections);
+      return subsections;
     }
 
     /// Letters to insert, delete, change or swap with the next one (Damerau 1964), whatever their case.
@@ -101,7 +84,7 @@ namespace scree
         {
           unsigned int least = 1000;
           for (const Name &name : names)
-            if ((name.path == path) == here)
+            if ((name.subsection == path) == here)
               {
                 const unsigned int strange = strangeness(written, name.name);
                 if (strange < least)
@@ -120,13 +103,13 @@ namespace scree
     std::string description(const std::vector<Name> &names, const std::string &path)
     {
       std::string result = quoted(names.front().name);
-      if (names.front().path == path)
+      if (names.front().subsection == path)
         return result;
       std::string separator = " in subsection ";
       for (const Name &name : names)
         if (name.name == names.front().name)
           {
-            result += name.path.empty() ? " at the top of the file" : separator + name.path;
+            result += name.subsection.empty() ? " at the top of the file" : separator + name.subsection;
             separator = " or ";
           }
       return result;
@@ -209,7 +192,7 @@ namespace scree
         {
           std::vector<Name> choices;
           for (const auto &choice : selection(entry.pattern))
-            choices.push_back({ "", choice, "", "" });
+            choices.push_back({ "", choice });
           const std::string choice = suggestion(choices, "", value);
           remedy += (choice.empty() ? "" : " ") + choice;
         }
@@ -221,8 +204,8 @@ namespace scree
   std::vector<std::string> subsection_paths(const ParameterHandler &prm)
   {
     std::vector<std::string> paths;
-    for (const Name &name : DeclaredNames(prm).subsections)
-      paths.push_back(subsection_path(name.path, name.name));
+    for (const Name &name : subsections_of(CaseEntries(prm)))
+      paths.push_back(subsection_path(name.subsection, name.name));
     return paths;
   }
 
@@ -231,7 +214,7 @@ namespace scree
   {
     std::vector<Name> all;
     for (const std::string &name : names)
-      all.push_back({ "", name, "", "" });
+      all.push_back({ "", name });
     return names_of(closest(all, "", written));
   }
 
@@ -381,10 +364,10 @@ namespace scree
 
   std::vector<NamedFile> InputFile::named_files(const ParameterHandler &prm)
   {
-    const DeclaredNames declared(prm);
+    const CaseEntries declared(prm);
     std::vector<NamedFile> result;
     for (Statement &statement : statements)
-      if (const Name *entry = find_name(declared.entries, statement.path, statement.name);
+      if (const CaseEntry *entry = declared.find(statement.path, statement.name);
           statement.kind == Kind::set && entry && is_file_pattern(entry->pattern))
         {
           const auto same = std::find_if(result.begin(), result.end(), [&](const NamedFile &named) {
@@ -456,15 +439,15 @@ namespace scree
                         const SubsectionRemedy &subsection_remedy,
                         const EntryRemedy &entry_remedy) const
   {
-    const DeclaredNames declared(prm);
+    const CaseEntries declared(prm);
+    const std::vector<Name> subsections = subsections_of(declared);
     for (const Statement &statement : statements)
-      if (statement.kind == Kind::subsection &&
-          find_name(declared.subsections, statement.path, statement.name) == nullptr)
+      if (statement.kind == Kind::subsection && !has_name(subsections, statement.path, statement.name))
         {
           const std::string path = subsection_path(statement.path, statement.name);
           std::string remedy     = subsection_remedy ? subsection_remedy(path) : "";
           if (remedy.empty())
-            remedy = suggestion(declared.subsections, statement.path, statement.name);
+            remedy = suggestion(subsections, statement.path, statement.name);
           throw statement.error("subsection " + path + ": there is no such subsection. " +
                                 (remedy.empty() ? last_remedy : remedy));
         }
@@ -473,12 +456,12 @@ namespace scree
           const auto error = [&](const std::string &remedy) {
             return statement.error(entry_message({ statement.path, statement.name, statement.value }, remedy));
           };
-          const Name *entry  = find_name(declared.entries, statement.path, statement.name);
-          std::string remedy = entry_remedy ? entry_remedy(statement.path, statement.name, statement.value) : "";
+          const CaseEntry *entry = declared.find(statement.path, statement.name);
+          std::string remedy     = entry_remedy ? entry_remedy(statement.path, statement.name, statement.value) : "";
           if (entry == nullptr)
             {
               if (remedy.empty())
-                remedy = suggestion(declared.entries, statement.path, statement.name);
+                remedy = suggestion(declared.all(), statement.path, statement.name);
               throw error(std::string("there is no such entry") + (statement.path.empty() ? ". " : " here. ") +
                           (remedy.empty() ? last_remedy : remedy));
             }

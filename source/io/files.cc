@@ -13,6 +13,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iterator>
 #include <sstream>
 
@@ -190,65 +191,40 @@ namespace scree
 
   namespace
   {
-    std::string utc_date()
+    /// When a process began, in ticks from the start of the machine: it stays so after its number has been given to
+    /// another one. 0 if it is none, or dead and not yet collected by its parent, or if the system does not report.
+    long long start_of(const long pid)
     {
-      const std::time_t now = std::time(nullptr);
-      char text[32];
-      std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
-      return text;
+      std::ifstream in("/proc/" + std::to_string(pid) + "/stat");
+      const std::string all{ std::istreambuf_iterator<char>(in), {} };
+      // "pid (name) state ...", and the start is the 22nd word; a name may hold anything.
+      std::istringstream words(all.substr(std::min(all.size(), all.rfind(')') + 1)));
+      char state     = 'X';
+      long long word = 0;
+      words >> state;
+      for (unsigned int i = 4; i <= 22; ++i)
+        words >> word;
+      return words && state != 'Z' && state != 'X' ? word : 0;
     }
 
-    /// Who a process is, also after its number has been given to another one.
-    struct Process
+
+    /// Whether a process of this machine still runs.
+    /// @param start see start_of()
+    bool runs(const long pid, const long long start)
     {
-      std::string host;
-      long pid         = 0;
-      long long starts = 0; ///< ticks from the start of the machine to that of the process; 0: not known
-
-      static Process myself()
-      {
-        return { dealii::Utilities::System::get_hostname(), getpid(), start_of(getpid()) };
-      }
-
-      /// 0 if the process is none, or dead and only not yet collected by its parent, or if the system does not report.
-      static long long start_of(const long pid)
-      {
-        std::ifstream in("/proc/" + std::to_string(pid) + "/stat");
-        const std::string all{ std::istreambuf_iterator<char>(in), {} };
-        // "pid (name) state ...", and the start is the 22nd word; a name may hold anything.
-        std::istringstream words(all.substr(std::min(all.size(), all.rfind(')') + 1)));
-        char state     = 'X';
-        long long word = 0;
-        words >> state;
-        for (unsigned int i = 4; i <= 22; ++i)
-          words >> word;
-        return words && state != 'Z' && state != 'X' ? word : 0;
-      }
-
-      /// Whether this process of this machine still runs.
-      bool runs() const
-      {
-        const bool system_tells = start_of(getpid()) > 0;
-        if (system_tells && starts > 0)
-          return start_of(pid) == starts;
-        return kill(pid, 0) == 0 || errno == EPERM;
-      }
-    };
-
-    std::istream &operator>>(std::istream &in, Process &process)
-    {
-      return in >> process.host >> process.pid >> process.starts;
+      const bool system_tells = start_of(getpid()) > 0;
+      if (system_tells && start > 0)
+        return start_of(pid) == start;
+      return kill(pid, 0) == 0 || errno == EPERM;
     }
 
-    std::ostream &operator<<(std::ostream &out, const Process &process)
-    {
-      return out << process.host << ' ' << process.pid << ' ' << process.starts;
-    }
 
     std::string lock_text()
     {
+      const std::time_t now = std::time(nullptr);
       std::ostringstream text;
-      text << Process::myself() << ' ' << utc_date() << '\n';
+      text << dealii::Utilities::System::get_hostname() << ' ' << getpid() << ' ' << start_of(getpid()) << ' '
+           << std::put_time(std::gmtime(&now), "%Y-%m-%dT%H:%M:%SZ") << '\n';
       return text.str();
     }
   } // namespace
@@ -262,22 +238,23 @@ namespace scree
       return;
     if (errno != EEXIST)
       {
-        why_not = file + " cannot be written: " + std::strerror(errno) + '.';
+        refusal = file + " cannot be written: " + std::strerror(errno) + '.';
         return;
       }
-    Process owner;
-    std::string begun = "?";
+    std::string host, begun = "?";
+    long pid        = 0;
+    long long start = 0;
     std::ifstream in(file);
-    const bool is_known       = bool(in >> owner >> begun);
-    const std::string process = is_known ? "process " + std::to_string(owner.pid) + " on " + owner.host : "?";
-    if (is_known && owner.host == dealii::Utilities::System::get_hostname() && !owner.runs())
+    const bool is_known       = bool(in >> host >> pid >> start >> begun);
+    const std::string process = is_known ? "process " + std::to_string(pid) + " on " + host : "?";
+    if (is_known && host == dealii::Utilities::System::get_hostname() && !runs(pid, start))
       {
-        replaced = process + ", begun " + begun;
+        dead_owner = process + ", begun " + begun;
         std::filesystem::remove(file);
         if (make())
           return;
       }
-    why_not = "another run writes there (" + process + ", begun " + begun +
+    refusal = "another run writes there (" + process + ", begun " + begun +
               "). Wait for its end, or name another folder. If that run is dead, remove the file " + file + '.';
   }
 
@@ -301,7 +278,7 @@ namespace scree
   {
     std::ifstream in(file);
     const std::string found{ std::istreambuf_iterator<char>(in), {} };
-    if (why_not.empty() && found == text) // and not that of a run that ignores this one
+    if (refusal.empty() && found == text) // and not that of a run that ignores this one
       ::unlink(file.c_str());
   }
 

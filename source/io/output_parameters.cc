@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/input/input_error.h>
 #include <scree/io/output_parameters.h>
+#include <scree/io/progress.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <sstream>
 
 namespace scree
 {
@@ -30,17 +29,13 @@ namespace scree
   TimeLabel::TimeLabel(const double end_time, const double interval)
       : decimals(std::max(decimals_of(end_time), decimals_of(interval)))
   {
-    std::ostringstream longest;
-    longest << std::fixed << std::setprecision(decimals) << end_time;
-    width = static_cast<int>(longest.str().size());
+    width = formatted("%.*f", decimals, end_time).size();
   }
 
 
   std::string TimeLabel::operator()(const double time) const
   {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(decimals) << std::setfill('0') << std::setw(width) << time << 's';
-    return text.str();
+    return formatted("%0*.*fs", width, decimals, time);
   }
 
 

@@ -1,58 +1,37 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/io/progress.h>
 #include <scree/io/run_folder.h>
+
+#include <boost/algorithm/string/trim.hpp>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <iomanip>
 #include <optional>
-#include <sstream>
+#include <regex>
 
 namespace scree
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Removes the files of a folder whose path `is_old`.
-    template <typename Choice>
-    void remove_files(const std::filesystem::path &folder, const Choice &is_old)
-    {
-      for (const auto &entry : std::filesystem::directory_iterator(folder))
-        if (entry.is_regular_file() && is_old(entry.path()))
-          std::filesystem::remove(entry.path());
-    }
-
-    bool is_picture(const std::filesystem::path &file)
-    {
-      const auto kind = file.extension();
-      return kind == ".vtu" || kind == ".pvtu" || kind == ".pvd";
-    }
-
-    bool is_map(const std::filesystem::path &file)
-    {
-      const auto kind = file.extension();
-      return kind == ".asc" || kind == ".prj" || kind == ".tif" || kind == ".csv";
-    }
-
-    bool is_probe(const std::filesystem::path &file)
-    {
-      return file.filename().string().rfind("probe_", 0) == 0;
-    }
-  } // namespace
-
-
   void RunFolder::remove_old_results()
   {
     if (writer)
       {
-        remove_files(file("solution"), is_picture);
-        if (std::filesystem::is_directory(file("maps")))
-          remove_files(file("maps"), is_map);
-        std::filesystem::remove_all(file("checkpoint"));
+        const auto remove_files =
+            [this](const std::string &folder, const std::string &begin, const std::set<std::string> &extensions) {
+              std::error_code is_missing;
+              for (const auto &entry : std::filesystem::directory_iterator(file(folder), is_missing))
+                if (entry.is_regular_file() && extensions.count(entry.path().extension()) > 0 &&
+                    entry.path().filename().string().rfind(begin, 0) == 0)
+                  std::filesystem::remove(entry.path());
+            };
+        remove_files("solution", "", { ".vtu", ".pvtu", ".pvd" });
+        remove_files("maps", "", { ".asc", ".prj", ".tif", ".csv" });
         for (const std::string name : { "statistics", "statistics.csv" })
           std::filesystem::remove(file(name));
-        remove_files(path, is_probe);
+        remove_files(".", "probe_", { "", ".csv" });
+        std::filesystem::remove_all(file("checkpoint"));
         log_file.close();
         log_file.open(file("log.txt"), std::ios::trunc);
       }
@@ -89,33 +68,21 @@ namespace scree
 
   std::string table_row(const std::vector<double> &values)
   {
-    std::ostringstream line;
-    line << std::scientific << std::setprecision(12);
+    std::string line;
     for (const double value : values)
-      line << value << ' ';
-    line << '\n';
-    return line.str();
+      line += formatted("%.12e ", value);
+    return line + '\n';
   }
 
 
   namespace
   {
-    /// Words of letters and digits, joined by `_`.
+    /// Words of letters, also beyond ASCII, and digits, joined by `_`.
     std::string joined_words(const std::string &text)
     {
-      std::string result;
-      bool is_in_word = false;
-      for (const char c : text)
-        {
-          const auto byte    = static_cast<unsigned char>(c);
-          const bool is_word = std::isalnum(byte) || byte >= 128; // also letters beyond ASCII
-          if (is_word && !is_in_word && !result.empty())
-            result += '_';
-          if (is_word)
-            result += c;
-          is_in_word = is_word;
-        }
-      return result;
+      static const std::regex others("[\\x01-/:-@\\[-`{-\\x7F]+");
+      return boost::algorithm::trim_copy_if(std::regex_replace(text, others, "_"),
+                                            [](const char c) { return c == '_'; });
     }
 
 
@@ -162,18 +129,10 @@ namespace scree
 
   std::string csv_row(const std::vector<double> &values)
   {
-    std::ostringstream line;
-    line << std::setprecision(13);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      {
-        line << (i == 0 ? "" : ",");
-        if (std::isnan(values[i])) // some machines would write -nan
-          line << "nan";
-        else
-          line << values[i];
-      }
-    line << '\n';
-    return line.str();
+    std::vector<std::string> words;
+    for (const double value : values)
+      words.push_back(std::isnan(value) ? "nan" : formatted("%.13g", value)); // some machines would write -nan
+    return boost::algorithm::join(words, ",") + '\n';
   }
 
 

@@ -47,7 +47,7 @@ namespace scree
     look_at_speeds(bodies, water);
     look_at_places(bodies, water);
     const double n_all = Utilities::MPI::sum(n_lost, grid.communicator());
-    suspect(Check::lost, n_all, n_all, [] { return std::string(); });
+    suspect(lost, n_all, n_all, [] { return std::string(); });
     agree(time);
     return true;
   }
@@ -75,7 +75,7 @@ namespace scree
   template <class Name>
   void RunChecks<dim>::suspect(const Check check, const double value, const double found, const Name &name)
   {
-    Suspect &so_far = now[static_cast<unsigned int>(check)];
+    Suspect &so_far = now[check];
     if (!(value <= so_far.value)) // what is no number is worst
       so_far = { std::isnan(value) ? std::numeric_limits<double>::infinity() : value, found, name(), 0. };
   }
@@ -98,8 +98,8 @@ namespace scree
       if (!std::isinf(largest))
         usual = std::max(usual, percentiles(speeds, 0., largest * (1. + 1e-9), { 0.999 }, grid.communicator())[0]);
       for_each([&](const double *velocity, const auto &name) {
-        if (const double speed = vector_of<dim>(velocity).norm(); speed > std::max(usual, fall))
-          suspect(Check::speed, speed / std::max(usual, fall), speed, name);
+        if (const double found = vector_of<dim>(velocity).norm(); found > std::max(usual, fall))
+          suspect(speed, found / std::max(usual, fall), found, name);
       });
     };
     include(usual_speed_of_soil, [&](const auto &act) {
@@ -132,12 +132,12 @@ namespace scree
     Utilities::MPI::max(ends, grid.communicator(), ends);
     const double height      = ends[0] + ends[1] + grid.cell_size();
     const auto look_at_depth = [&](const auto &point, const auto &name) {
-      const double deepest = -grid.cell_size() * now[static_cast<unsigned int>(Check::depth)].value;
+      const double deepest = -grid.cell_size() * now[depth].value;
       if (bed == nullptr || bed->least_distance(point.cell) >= deepest)
         return;
       const double distance = bed->distance_of(point.cell, point.reference_location, point.location, deepest);
       if (distance < 0.)
-        suspect(Check::depth, -distance / grid.cell_size(), -distance, name);
+        suspect(depth, -distance / grid.cell_size(), -distance, name);
     };
     for (const WaterPhase<dim> &part : water)
       if (part.carrier() == nullptr)
@@ -146,12 +146,12 @@ namespace scree
       if (!body.is_rigid)
         for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
           const double ratio = body.density * point.properties[body.layout.volume] / point.properties[body.layout.mass];
-          const double *stress = point.properties + body.layout.stress;
+          const double *sigma = point.properties + body.layout.stress;
           // Passive pressure raises p' alone, and arching the vertical stress alone.
-          const double both = std::min(mean_effective_stress(stress), g > 0. ? -along(gravity / g, stress) : 0.);
-          suspect(Check::shrinkage, 1. / ratio, ratio, name);
+          const double both = std::min(mean_effective_stress(sigma), g > 0. ? -along(gravity / g, sigma) : 0.);
+          suspect(shrinkage, 1. / ratio, ratio, name);
           if (g > 0.)
-            suspect(Check::stress, both / (body.density * g * height), both, name);
+            suspect(stress, both / (body.density * g * height), both, name);
           look_at_depth(point, name);
         });
     for (const SoilBody<dim> &body : bodies)
@@ -175,8 +175,7 @@ namespace scree
           place = point.location;
         });
         if (const double ratio = volume / volume_at_start; volume_at_start > 0.)
-          suspect(
-              Check::dilation, ratio, ratio, [&] { return body.name + ", cell at (" + number_text(place) + ") m"; });
+          suspect(dilation, ratio, ratio, [&] { return body.name + ", cell at (" + number_text(place) + ") m"; });
       }
   }
 
@@ -192,40 +191,40 @@ namespace scree
         if (of_rank[c].value > worst[c].value)
           worst[c] = of_rank[c];
     for (unsigned int c = 0; c < n_checks && !of_ranks.empty(); ++c)
-      if (const Check check = static_cast<Check>(c); !is_told[c] && is_wrong(check, worst[c].value))
+      if (!is_told[c] && is_wrong(c, worst[c].value))
         {
           is_told[c] = true;
-          folder.log("Check: " + text(check, worst[c]) + ".");
+          folder.log("Check: " + text(c, worst[c]) + ".");
         }
   }
 
 
   template <int dim>
-  bool RunChecks<dim>::is_wrong(const Check check, const double value)
+  bool RunChecks<dim>::is_wrong(const unsigned int check, const double value)
   {
-    return value > bounds[static_cast<unsigned int>(check)];
+    return value > bounds[check];
   }
 
 
   template <int dim>
-  std::string RunChecks<dim>::text(const Check check, const Suspect &suspect)
+  std::string RunChecks<dim>::text(const unsigned int check, const Suspect &suspect)
   {
     const std::string when  = "t = " + short_text(suspect.time) + " s: ";
     const std::string found = short_text(suspect.found), value = short_text(suspect.value);
     const std::string which = suspect.point + ", " + when;
     switch (check)
       {
-      case Check::speed:
+      case speed:
         return which + "it moves at " + found + " m/s, " + value +
                " times the largest 99.9 % quantile of the speeds so far";
-      case Check::depth:
+      case depth:
         return which + "it is " + found + " m below the bed, " + value + " of a cell";
-      case Check::shrinkage:
+      case shrinkage:
         return which + "it is compressed to V/V_0 = " + found;
-      case Check::dilation:
+      case dilation:
         return which + "soil in contact has dilated to V/V_0 = " + found +
                "; write a smaller dilation angle, a larger tension cut-off, or a law with a critical state";
-      case Check::stress:
+      case stress:
         return which + "p' and the vertical stress reach " + found + " Pa, " + value + " times rho g H of all the soil";
       default:
         return when + found + " points of soil left the box";
@@ -237,30 +236,29 @@ namespace scree
   std::vector<CheckResult> RunChecks<dim>::results() const
   {
     std::vector<CheckResult> list;
-    const auto of  = [&](const Check check) -> const Suspect  &{ return worst[static_cast<unsigned int>(check)]; };
     const auto add = [&](const Check check, const bool applies, const std::string &value, const std::string &bound) {
-      const bool is_exceeded = is_wrong(check, of(check).value);
+      const bool is_exceeded = is_wrong(check, worst[check].value);
       if (has_looked && applies)
-        list.push_back({ value, bound, is_exceeded, is_exceeded ? text(check, of(check)) : "" });
+        list.push_back({ value, bound, is_exceeded, is_exceeded ? text(check, worst[check]) : "" });
     };
-    const std::string deepest  = short_text(of(Check::depth).found);
-    const std::string fastest  = short_text(std::max(1., of(Check::speed).value));
-    const std::string smallest = short_text(of(Check::shrinkage).value > 0. ? of(Check::shrinkage).found : 1.);
-    const std::string largest  = short_text(of(Check::dilation).found);
-    const std::string highest  = short_text(of(Check::stress).value);
-    const bool has_dilated = of(Check::dilation).value > 1., has_weight = has_soil && gravity.norm() > 0.;
-    add(Check::depth,
+    const std::string deepest  = short_text(worst[depth].found);
+    const std::string fastest  = short_text(std::max(1., worst[speed].value));
+    const std::string smallest = short_text(worst[shrinkage].value > 0. ? worst[shrinkage].found : 1.);
+    const std::string largest  = short_text(worst[dilation].found);
+    const std::string highest  = short_text(worst[stress].value);
+    const bool has_dilated = worst[dilation].value > 1., has_weight = has_soil && gravity.norm() > 0.;
+    add(depth,
         bed != nullptr,
         "deepest point " + deepest + " m below the bed",
         short_text(bounds[1] * grid.cell_size()) + " m");
-    add(Check::lost, has_soil, "points of soil lost " + short_text(of(Check::lost).found), "0");
-    add(Check::speed,
+    add(lost, has_soil, "points of soil lost " + short_text(worst[lost].found), "0");
+    add(speed,
         true,
         "fastest point " + fastest + " times the largest 99.9 % quantile of the speeds",
         short_text(bounds[0]));
-    add(Check::shrinkage, has_soil, "smallest V/V_0 " + smallest, short_text(1. / bounds[2]));
-    add(Check::dilation, has_dilated, "largest V/V_0 in contact " + largest, short_text(bounds[3]));
-    add(Check::stress, has_weight, "largest stress " + highest + " of rho g H", short_text(bounds[4]));
+    add(shrinkage, has_soil, "smallest V/V_0 " + smallest, short_text(1. / bounds[2]));
+    add(dilation, has_dilated, "largest V/V_0 in contact " + largest, short_text(bounds[3]));
+    add(stress, has_weight, "largest stress " + highest + " of rho g H", short_text(bounds[4]));
     return list;
   }
 

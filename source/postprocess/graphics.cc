@@ -165,22 +165,24 @@ namespace scree
     {
       const auto picture          = std::make_shared<PatchOutput<0, dim>>();
       PatchOutput<0, dim> &output = *picture;
-      for (const OutputField &field : { fields::velocity,
-                                        fields::stress,
-                                        fields::mean_effective_stress,
-                                        fields::deviatoric_stress,
-                                        fields::stress_ratio,
-                                        fields::mass,
-                                        fields::volume,
-                                        fields::body })
-        output.add(field);
+      output.add({ "velocity", "m/s", FieldKind::vector });
+      output.add({ "stress", "Pa", FieldKind::tensor });
+      output.add({ "mean_effective_stress", "Pa" });
+      output.add({ "deviatoric_stress", "Pa" });
+      output.add({ "stress_ratio", "-" });
+      output.add({ "mass", "kg" });
+      output.add({ "volume", "m^3" });
+      output.add({ "body", "-" });
       if (view)
-        for (const OutputField &field : { fields::porosity, fields::pore_pressure, fields::seepage_velocity })
-          output.add(field);
-      output.add(fields::id);
+        {
+          output.add({ "porosity", "-" });
+          output.add({ "pore_pressure", "Pa" });
+          output.add({ "seepage_velocity", "m/s", FieldKind::vector });
+        }
+      output.add({ "id", "-" });
       const bool with_displacement = bodies.front().layout.has_start; // all bodies have it, or none
       if (with_displacement)
-        output.add(fields::displacement);
+        output.add({ "displacement", "m", FieldKind::vector });
       LawFields<dim> law_fields(bodies, output);
 
       unsigned int number = 0;
@@ -228,14 +230,13 @@ namespace scree
     {
       const auto picture          = std::make_shared<PatchOutput<0, dim>>();
       PatchOutput<0, dim> &output = *picture;
-      for (const OutputField &field : { fields::velocity,
-                                        fields::pressure,
-                                        fields::mass,
-                                        fields::volume,
-                                        fields::porosity,
-                                        fields::inside_soil,
-                                        fields::seepage_velocity })
-        output.add(field);
+      output.add({ "velocity", "m/s", FieldKind::vector });
+      output.add({ "pressure", "Pa" });
+      output.add({ "mass", "kg" });
+      output.add({ "volume", "m^3" });
+      output.add({ "porosity", "-" });
+      output.add({ "inside_soil", "-" });
+      output.add({ "seepage_velocity", "m/s", FieldKind::vector });
 
       for (const auto &water : view.water)
         for (const auto &cell : water.points().cells())
@@ -269,12 +270,16 @@ namespace scree
     {
       const auto picture            = std::make_shared<PatchOutput<dim, dim>>();
       PatchOutput<dim, dim> &output = *picture;
-      for (const OutputField &field : { fields::velocity, fields::density, fields::mean_effective_stress })
-        output.add(field);
+      output.add({ "velocity", "m/s", FieldKind::vector });
+      output.add({ "density", "kg/m^3" });
+      output.add({ "mean_effective_stress", "Pa" });
       if (view)
-        for (const OutputField &field :
-             { fields::water_velocity, fields::pressure, fields::porosity, fields::saturation })
-          output.add(field);
+        {
+          output.add({ "water_velocity", "m/s", FieldKind::vector });
+          output.add({ "pressure", "Pa" });
+          output.add({ "porosity", "-" });
+          output.add({ "saturation", "-" });
+        }
 
       const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
       for (const auto &cell : grid.triangulation().active_cell_iterators())

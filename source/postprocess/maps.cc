@@ -111,9 +111,9 @@ namespace scree
       if (sheet.soil[c] <= least)
         raster.values[c] = std::numeric_limits<double>::quiet_NaN();
     const std::string path = folder.file("maps/" + file);
-    if (parameters.writes_geo_tiff())
+    if (parameters.format != "ASCII grid")
       files.emplace_back(path + ".tif", geo_tiff(raster, sheet.name, sheet.unit));
-    if (!parameters.writes_ascii_grid())
+    if (parameters.format == "GeoTIFF")
       return;
     files.emplace_back(path + ".asc", ascii_grid(raster));
     const std::string system = frame.system.empty() ? "" : prj_text(frame.system);

@@ -4,8 +4,6 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
-#include <iterator>
-
 namespace scree
 {
   using namespace dealii;
@@ -331,7 +329,7 @@ namespace scree
   template decltype(rear_and_front<3>) rear_and_front<3>;
 
 
-  std::vector<double> percentiles(const std::vector<PartOfMass> &all,
+  std::vector<double> percentiles(const std::vector<PartOfMass> &parts,
                                   const double lower,
                                   const double upper,
                                   const std::vector<double> &fractions,
@@ -339,50 +337,41 @@ namespace scree
   {
     struct Search
     {
-      double begin, end, below, wanted;
-      std::vector<PartOfMass> parts; // all that may lie between begin and end
+      double begin, end, wanted;     // mass between begin and the percentile
+      std::vector<PartOfMass> parts; // between begin and end
     };
-    std::vector<Search> searches(fractions.size(), { lower, upper, 0., 0., {} });
+    double all = 0.;
+    for (const PartOfMass &part : parts)
+      all += part.mass;
+    all = Utilities::MPI::sum(all, communicator);
+    // Equal masses often add up to just the given part: rounding must not choose the point.
+    std::vector<Search> searches;
+    for (const double fraction : fractions)
+      searches.push_back({ lower, upper, fraction * all * (1. - 1e-12), parts });
 
-    // Each pass finds the bin in which the given mass is reached and looks into it the next time.
-    constexpr unsigned int n_bins = 1000, n_passes = 5;
-    std::vector<double> bins;
-    for (unsigned int pass = 0; pass < n_passes; ++pass)
+    constexpr unsigned int n_halvings = 50;
+    for (unsigned int i = 0; i < n_halvings; ++i)
       {
-        bins.assign(n_bins * searches.size(), 0.);
-        for (unsigned int s = 0; s < searches.size(); ++s)
+        std::vector<double> masses; // below the middles
+        std::vector<std::vector<PartOfMass>::iterator> middles;
+        for (Search &search : searches)
           {
-            const auto &[begin, end, below, wanted, parts] = searches[s];
-            for (const PartOfMass &part : pass == 0 ? all : parts)
-              if (const double position = (part.place - begin) / (end - begin) * n_bins;
-                  position >= 0 && position < n_bins)
-                bins[s * n_bins + static_cast<unsigned int>(position)] += part.mass;
+            middles.push_back(
+                std::partition(search.parts.begin(), search.parts.end(), [&search](const PartOfMass &part) {
+                  return part.place < 0.5 * (search.begin + search.end);
+                }));
+            masses.push_back(0.);
+            for (auto part = search.parts.begin(); part != middles.back(); ++part)
+              masses.back() += part->mass;
           }
-        Utilities::MPI::sum(bins, communicator, bins);
+        Utilities::MPI::sum(masses, communicator, masses);
         for (unsigned int s = 0; s < searches.size(); ++s)
           {
-            auto &[begin, end, below, wanted, parts] = searches[s];
-            const double *bin_of_search              = bins.data() + s * n_bins;
-            if (pass == 0)
-              for (unsigned int bin = 0; bin < n_bins; ++bin)
-                wanted += fractions[s] * bin_of_search[bin];
-            // Equal masses often add up to just the given part: rounding must not choose the point.
-            unsigned int bin = 0;
-            while (bin + 1 < n_bins && below + bin_of_search[bin] < wanted * (1. - 1e-12))
-              below += bin_of_search[bin++];
-            const double width = (end - begin) / n_bins;
-            begin += bin * width;
-            end                = begin + width;
-            const auto &before = pass == 0 ? all : parts;
-            std::vector<PartOfMass> kept;
-            // Rounding decides anew about the edges.
-            std::copy_if(before.begin(),
-                         before.end(),
-                         std::back_inserter(kept),
-                         [first = begin - width, last = end + width](const PartOfMass &part) {
-                           return part.place >= first && part.place < last;
-                         });
-            parts = std::move(kept);
+            auto &[begin, end, wanted, own] = searches[s];
+            const bool is_above             = masses[s] < wanted;
+            (is_above ? begin : end)        = 0.5 * (begin + end);
+            wanted -= is_above ? masses[s] : 0.;
+            own.erase(is_above ? own.begin() : middles[s], is_above ? middles[s] : own.end());
           }
       }
     std::vector<double> result;
@@ -423,17 +412,19 @@ namespace scree
                               const BackgroundGrid<dim> &grid)
   {
     const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
-    std::vector<double> sums(5, 0.); // water points, water mass, that outside soil, overfull volume, volume
+    WaterMeasures measures;
+    double volume = 0., overfull = 0.; // of grains and water
     for (const CellContents &cell : contents_of_cells(bodies, water, grid))
       {
-        const double volume = cell.grain_volume + cell.water_volume;
-        sums[0] += cell.n_water_points;
-        sums[1] += cell.water_mass;
-        sums[2] += cell.n_soil_points == 0 ? cell.water_mass : 0.;
-        sums[3] += std::max(0., volume - cell_volume);
-        sums[4] += volume;
+        const double filled = cell.grain_volume + cell.water_volume;
+        measures.n_points += cell.n_water_points;
+        measures.mass += cell.water_mass;
+        measures.mass_outside_soil += cell.n_soil_points == 0 ? cell.water_mass : 0.;
+        overfull += std::max(0., filled - cell_volume);
+        volume += filled;
       }
-    Utilities::MPI::sum(sums, grid.communicator(), sums);
+    NumbersOf{ &measures.n_points, &measures.mass, &measures.mass_outside_soil, &overfull, &volume }.sum_over_ranks(
+        grid.communicator());
 
     std::vector<double> largest(3, -std::numeric_limits<double>::infinity()); // -p, p, x
     for (const auto &one : water)
@@ -445,14 +436,11 @@ namespace scree
       });
     Utilities::MPI::max(largest, grid.communicator(), largest);
 
-    WaterMeasures measures;
-    measures.n_points          = sums[0];
-    measures.mass              = sums[1];
-    measures.mass_outside_soil = sums[2];
-    measures.smallest_pressure = sums[0] > 0 ? -largest[0] : 0.;
-    measures.largest_pressure  = sums[0] > 0 ? largest[1] : 0.;
-    measures.tip               = sums[0] > 0 ? largest[2] : grid.lower_corner()[0];
-    measures.volume_error      = sums[4] > 0 ? sums[3] / sums[4] : 0.;
+    const bool is_there        = measures.n_points > 0;
+    measures.smallest_pressure = is_there ? -largest[0] : 0.;
+    measures.largest_pressure  = is_there ? largest[1] : 0.;
+    measures.tip               = is_there ? largest[2] : grid.lower_corner()[0];
+    measures.volume_error      = volume > 0 ? overfull / volume : 0.;
     return measures;
   }
 
@@ -464,39 +452,13 @@ namespace scree
 
   namespace
   {
-    /// Moments of a cell's points about a common origin: 1, x, x x^T (the upper half of the normal matrix of a linear
-    /// fit, row by row) and the same of the pressure.
+    /// Sums over a cell's points: the normal matrix of a linear fit, of 1 and x about a common origin, and the
+    /// pressure's right-hand side.
     template <int dim>
     struct Moments
     {
-      std::array<double, (dim + 1) * (dim + 2) / 2> matrix{};
-      std::array<double, dim + 1> rhs{};
-
-      static constexpr unsigned int entry(const unsigned int i, const unsigned int j) // i <= j
-      {
-        return i * (dim + 1) - i * (i + 1) / 2 + j;
-      }
-
-      void add(const Point<dim> &x, const double pressure)
-      {
-        std::array<double, dim + 1> monomials{ { 1. } };
-        for (unsigned int a = 0; a < dim; ++a)
-          monomials[a + 1] = x[a];
-        for (unsigned int i = 0; i <= dim; ++i)
-          {
-            for (unsigned int j = i; j <= dim; ++j)
-              matrix[entry(i, j)] += monomials[i] * monomials[j];
-            rhs[i] += monomials[i] * pressure;
-          }
-      }
-
-      void operator+=(const Moments &other)
-      {
-        for (unsigned int i = 0; i < matrix.size(); ++i)
-          matrix[i] += other.matrix[i];
-        for (unsigned int i = 0; i < rhs.size(); ++i)
-          rhs[i] += other.rhs[i];
-      }
+      Tensor<2, dim + 1> matrix;
+      Tensor<1, dim + 1> rhs;
 
       template <class Archive>
       void serialize(Archive &archive, const unsigned int)
@@ -505,26 +467,21 @@ namespace scree
       }
     };
 
-    /// Mean and slopes.
+    /// The linear fit to points, of which there is one at least: what 1 and x are multiplied by; slopes that they do
+    /// not determine are 0.
     template <int dim>
-    using Fit = std::array<double, dim + 1>;
-
-    /// The linear fit to points, of which there is one at least; slopes that they do not determine are 0.
-    template <int dim>
-    Fit<dim> fit(const Moments<dim> &moments)
+    Tensor<1, dim + 1> fit(const Moments<dim> &moments)
     {
       // Centred normal matrix: 1/n x^T x - mean mean^T.
-      const double n = moments.matrix[0];
-      Tensor<1, dim> mean, slope;
+      const double n = moments.matrix[0][0];
+      Tensor<1, dim> mean, slope, covariance;
       SymmetricTensor<2, dim> spread;
       for (unsigned int a = 0; a < dim; ++a)
-        mean[a] = moments.matrix[a + 1] / n;
-      Tensor<1, dim> covariance;
-      for (unsigned int a = 0; a < dim; ++a)
         {
-          for (unsigned int b = a; b < dim; ++b)
-            spread[a][b] = moments.matrix[Moments<dim>::entry(a + 1, b + 1)] / n - mean[a] * mean[b];
+          mean[a]       = moments.matrix[0][a + 1] / n;
           covariance[a] = moments.rhs[a + 1] / n - mean[a] * moments.rhs[0] / n;
+          for (unsigned int b = 0; b <= a; ++b)
+            spread[a][b] = moments.matrix[b + 1][a + 1] / n - mean[a] * mean[b];
         }
       // Of a cell width squared: the points spread along an axis whose principal value is above.
       constexpr double least = 1e-6;
@@ -534,7 +491,7 @@ namespace scree
         for (const auto &[value, axis] : eigenvectors(spread))
           if (value > least)
             slope += (covariance * axis) / value * axis;
-      Fit<dim> coefficients;
+      Tensor<1, dim + 1> coefficients;
       coefficients[0] = moments.rhs[0] / n - slope * mean;
       for (unsigned int a = 0; a < dim; ++a)
         coefficients[a + 1] = slope[a];
@@ -562,9 +519,13 @@ namespace scree
           {
             const unsigned int entry = entry_of(cell.cell);
             for_each_point(cell, [&](const auto &point) {
-              const Point<dim> x((point.location - grid.lower_corner()) / grid.cell_size());
-              samples.push_back({ x, pressure_of(point.properties + slot), entry });
-              moments[entry].add(x, samples.back().pressure);
+              Tensor<1, dim + 1> monomials;
+              monomials[0] = 1.;
+              for (unsigned int a = 0; a < dim; ++a)
+                monomials[a + 1] = (point.location[a] - grid.lower_corner()[a]) / grid.cell_size();
+              samples.push_back({ monomials, pressure_of(point.properties + slot), entry });
+              moments[entry].matrix += outer_product(monomials, monomials);
+              moments[entry].rhs += samples.back().pressure * monomials;
             });
           }
       }
@@ -576,14 +537,11 @@ namespace scree
         const unsigned int n_owned = moments.size();
         if (const MPI_Comm communicator = grid.communicator(); Utilities::MPI::n_mpi_processes(communicator) > 1)
           add_ghosts();
-        const std::vector<Fit<dim>> fits = fits_around(n_owned);
+        const std::vector<Tensor<1, dim + 1>> fits = fits_around(n_owned);
         std::vector<double> sums{ 0, 0, 0 }; // points, pressure, squared residual
         for (const Sample &sample : samples)
           {
-            const Fit<dim> &coefficients = fits[sample.entry];
-            double residual              = sample.pressure - coefficients[0];
-            for (unsigned int a = 0; a < dim; ++a)
-              residual -= coefficients[a + 1] * sample.x[a];
+            const double residual = sample.pressure - fits[sample.entry] * sample.monomials;
             sums[0] += 1;
             sums[1] += sample.pressure;
             sums[2] += residual * residual;
@@ -598,7 +556,7 @@ namespace scree
 
       struct Sample
       {
-        Point<dim> x; // in cells from the lower corner
+        Tensor<1, dim + 1> monomials; // 1 and x, in cells from the lower corner
         double pressure;
         unsigned int entry;
       };
@@ -642,11 +600,11 @@ namespace scree
       }
 
       /// The fits to the points of the first cells and of their neighbours.
-      std::vector<Fit<dim>> fits_around(const unsigned int n_owned) const
+      std::vector<Tensor<1, dim + 1>> fits_around(const unsigned int n_owned) const
       {
         const FineCells<dim> &fine = grid.fine_cells();
         const auto order           = order_of_sums();
-        std::vector<Fit<dim>> fits;
+        std::vector<Tensor<1, dim + 1>> fits;
         for (unsigned int entry = 0; entry < n_owned; ++entry)
           {
             const CellPlace<dim> &middle = fine.cells()[fine.of_index(cells[entry])].place;
@@ -658,7 +616,10 @@ namespace scree
                   place[a] += int(rest % 3) - 1;
                 if (const unsigned int cell = fine.find(place); cell != FineCells<dim>::none)
                   if (const unsigned int near = entry_of_cell[fine.cells()[cell].index]; near != none)
-                    sum += moments[near];
+                    {
+                      sum.matrix += moments[near].matrix;
+                      sum.rhs += moments[near].rhs;
+                    }
               }
             fits.push_back(fit(sum));
           }

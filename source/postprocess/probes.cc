@@ -45,7 +45,7 @@ namespace scree
                              const std::vector<double> &values) const
   {
     constexpr double half = 0.5 * (1 + 1e-6); // rounding must not decide about points on the edge
-    const auto distance   = (x - place_list[place]) / grid.cell_size();
+    const auto distance   = (x - places[place]) / grid.cell_size();
     double weight         = mass;
     bool is_close         = true;
     for (unsigned int a = 0; a < dim; ++a)
@@ -77,8 +77,8 @@ namespace scree
     constexpr unsigned int n         = dim + 1;
     Utilities::MPI::sum(sums.all, grid.communicator(), sums.all);
     std::vector<std::vector<double>> table(
-        place_list.size(), std::vector<double>(sums.n_values, std::numeric_limits<double>::quiet_NaN()));
-    for (unsigned int i = 0; i < place_list.size(); ++i)
+        places.size(), std::vector<double>(sums.n_values, std::numeric_limits<double>::quiet_NaN()));
+    for (unsigned int i = 0; i < places.size(); ++i)
       {
         if (sums.of(i)[0] == 0.)
           continue;
@@ -111,7 +111,7 @@ namespace scree
   std::vector<std::vector<double>> PlaceValues<dim>::of_soil(const std::list<SoilBody<dim>> &bodies) const
   {
     std::vector<double> values(names_of_soil().size());
-    Sums sums(place_list.size(), values.size());
+    Sums sums(places.size(), values.size());
     for (const auto &body : bodies)
       for (const auto &cell : body.points.cells())
         for (const unsigned int place : near(cell))
@@ -131,7 +131,7 @@ namespace scree
   std::vector<std::vector<double>> PlaceValues<dim>::of_water(const std::list<WaterPhase<dim>> &water) const
   {
     std::vector<double> values(names_of_water().size());
-    Sums sums(place_list.size(), values.size());
+    Sums sums(places.size(), values.size());
     for (const auto &one : water)
       for (const auto &cell : one.points().cells())
         for (const unsigned int place : near(cell))
@@ -381,7 +381,7 @@ namespace scree
     const auto new_group = [&](const bool of_pictures, const std::vector<NamedPlace> &places) -> Group & {
       Group &group = groups.emplace_back(Group{ of_pictures, {}, {}, {} });
       for (const NamedPlace &place : places)
-        add_table(group, place.name);
+        group.tables.push_back(&tables.emplace_back(folder, "probe_" + place.name));
       return group;
     };
 
@@ -405,7 +405,7 @@ namespace scree
         group.rows = [this, values = PlaceValues<dim>(grid, places_on_line<dim>(line, parameters.places_a_line))](
                          const auto &state) {
           Rows rows        = state_at(values, state);
-          const auto &from = values.places();
+          const auto &from = values.places;
           for (unsigned int i = 0; i < rows.size(); ++i)
             {
               rows[i].insert(rows[i].begin(), &from[i][0], &from[i][0] + dim);

@@ -12,7 +12,6 @@ namespace scree
     double bulk_modulus = 0, ///< K, Pa
         shear_modulus   = 0; ///< G, Pa
     double density      = 0; ///< dry, kg/m^3
-    double pressure     = 0; ///< mean effective stress, Pa
 
     /// m/s; 0 without soil.
     double speed() const

@@ -273,6 +273,8 @@ namespace scree
       prm.leave_subsection();
       water_boundaries.add_parameters(prm);
     }
+    /// Without corners in the file, takes the box that a bed's raster asks for: its outline, two cells below the lowest
+    /// height, and four cells above the highest soil. Throws EntryError if it cannot be read or has no heights.
     void take_box_from_raster();
     void take_unit_weights();
     void read_maps();

@@ -302,18 +302,6 @@ namespace scree
     /// See LevelSet::view().
     SurfaceView<2> view(const dealii::Point<2> &x, const double reach) const override;
 
-    /// Smallest x of the points, m.
-    double first_x() const
-    {
-      return points.front()[0];
-    }
-
-    /// Largest x of the points, m.
-    double last_x() const
-    {
-      return points.back()[0];
-    }
-
   private:
     double height(const double x) const;
 

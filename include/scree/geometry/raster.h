@@ -2,11 +2,11 @@
 #ifndef scree_geometry_raster_h
 #define scree_geometry_raster_h
 
-
-#include <deal.II/base/point.h>
+#include <deal.II/base/bounding_box.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,12 +42,6 @@ namespace scree
       return y + (n_rows - 1) * spacing;
     }
 
-    /// Values that are missing.
-    std::size_t n_missing() const
-    {
-      return std::count_if(values.begin(), values.end(), [](const double value) { return std::isnan(value); });
-    }
-
     /// Smallest and largest value; infinity and minus infinity if all are missing.
     std::pair<double, double> range() const;
 
@@ -57,11 +51,9 @@ namespace scree
     /// @param where_missing a sentence on what is where heights are missing
     std::string remark_on_heights(const std::string &name, const std::string &where_missing) const;
 
-    /// Bilinear between the values; NaN where one that counts is missing.
-    double value_at(const double x, const double y) const;
-
-    /// The same with 0 for what is missing, beyond the values, too.
-    double value_or_zero_at(const double x, const double y) const;
+    /// Bilinear between the values; `missing` stands for those that are missing, beyond the raster, too.
+    double
+    value_at(const double x, const double y, const double missing = std::numeric_limits<double>::quiet_NaN()) const;
 
   private:
     /// A value with its row and column as a file counts them, from the north and the west, and its place.
@@ -102,57 +94,31 @@ namespace scree
   /// @param unit of its values
   std::string geo_tiff(const Raster &raster, const std::string &name, const std::string &unit);
 
-  /// A part of the plane with straight edges.
-  class Polygon
-  {
-  public:
-    /// @param corners one after the other, m; the last is joined to the first
-    explicit Polygon(std::vector<dealii::Point<2>> corners);
-
-    /// Whether a place, m, is inside.
-    bool contains(const dealii::Point<2> &x) const;
-
-    /// Lower and upper corner of the box around it, m.
-    std::pair<dealii::Point<2>, dealii::Point<2>> bounds() const
-    {
-      return { lower, upper };
-    }
-
-    /// The first edge that one beyond its neighbours crosses or touches; the number of edges if there is none.
-    unsigned int first_crossing() const;
-
-  private:
-    const dealii::Point<2> &corner(const unsigned int i) const
-    {
-      return corners[i % corners.size()];
-    }
-
-    std::vector<dealii::Point<2>> corners;
-    dealii::Point<2> lower, upper; // of the box around it
-  };
-
   /// Areas on the map, such as those of a release; they may overlap.
   class Outline
   {
   public:
-    /// @param areas at least one: the edge and the holes of each, m
-    explicit Outline(std::vector<std::vector<Polygon>> areas)
-        : areas(std::move(areas))
-    {
-    }
+    using Ring = std::vector<dealii::Point<2>>; ///< corners of a closed line, m; the first one is at the end again
+
+    /// @param areas at least one: the edge and the holes of each
+    explicit Outline(std::vector<std::vector<Ring>> areas);
 
     /// Whether a place, m, is in an area and in none of its holes.
     bool contains(const dealii::Point<2> &x) const;
 
     /// Lower and upper corner of the box around all areas, m.
-    std::pair<dealii::Point<2>, dealii::Point<2>> bounds() const;
+    const std::pair<dealii::Point<2>, dealii::Point<2>> &bounds() const
+    {
+      return box.get_boundary_points();
+    }
 
   private:
-    std::vector<std::vector<Polygon>> areas;
+    std::vector<std::vector<Ring>> areas;
+    dealii::BoundingBox<2> box;
   };
 
-  /// Reads the areas of a file in a vector format of GDAL, else one by read_polygon(). Throws
-  /// EntryError, which begins with `where` (see entry_name()), if there is none, or if edges cross.
+  /// Reads the areas of a file in a vector format of GDAL, else one from a text of its corners "x, y", m, one a line.
+  /// Throws EntryError, which begins with `where` (see entry_name()), if there is none, or if edges cross.
   /// @param origin where the map has the origin of the outline's x and y, m
   Outline read_outline(const std::string &file, const std::string &where, const dealii::Point<2> &origin);
 

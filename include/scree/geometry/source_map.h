@@ -69,7 +69,7 @@ namespace scree
         return false;
       if (upper_surface && !(x[2] < upper_surface->value_at(x[0], x[1])))
         return false;
-      const double part = thickness ? thickness->value_or_zero_at(x[0], x[1]) : 0.;
+      const double part = thickness ? thickness->value_at(x[0], x[1], 0.) : 0.;
       if (thickness && !(part > 0.))
         return false;
       // Less than a thickness above the ground is what would be below it by that much less.
@@ -87,7 +87,7 @@ namespace scree
     std::pair<double, double> part_of_line(const double x, const double y, const double lower, const double upper) const
     {
       const std::pair<double, double> nothing{ lower, lower };
-      const double part = thickness ? thickness->value_or_zero_at(x, y) : 0.;
+      const double part = thickness ? thickness->value_at(x, y, 0.) : 0.;
       const double over = upper_surface ? upper_surface->value_at(x, y) : upper;
       if ((thickness && !(part > 0.)) || !(over > lower) || (outline && !outline->contains({ x, y })))
         return nothing;

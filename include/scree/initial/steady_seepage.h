@@ -38,7 +38,7 @@ namespace scree
     /// Elevation of free water at a place, m; NaN without a reservoir.
     double level(const dealii::Point<dim> &x) const;
 
-    /// Number of the body at a place, or air, or closed.
+    /// Number of the body at a place, or air, or closed, as all is beyond the box.
     int kind(const dealii::Point<dim> &x) const;
 
     /// Whether a body with flow is there.

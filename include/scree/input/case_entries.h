@@ -45,10 +45,12 @@ namespace scree
   /// An entry of a case with its value, set or default.
   struct CaseEntry
   {
-    std::string subsection, ///< path; empty at the top of the file
-        name,               ///< of the entry
-        value;              ///< as text
-    std::string checksum;   ///< of the contents of the file it names; empty if it names none
+    std::string subsection,   ///< path; empty at the top of the file
+        name,                 ///< of the entry
+        value           = "", ///< as text
+        checksum        = ""; ///< of the contents of the file it names; empty if it names none
+    std::string pattern = "", ///< deal.II's description of allowed values, if `prm` has declared the entry
+        documentation   = ""; ///< text of the manual, if `prm` has declared the entry
   };
 
   /// All entries of a case, those of a subsection before those of the subsections in it.

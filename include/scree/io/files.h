@@ -107,23 +107,13 @@ namespace scree
     FolderLock(const FolderLock &)            = delete;
     FolderLock &operator=(const FolderLock &) = delete;
 
-    /// Who has the lock and what to do, in words; empty if this has it.
-    const std::string &refusal() const
-    {
-      return why_not;
-    }
-
-    /// The process whose lock was replaced, in words; empty if there was none.
-    const std::string &dead_owner() const
-    {
-      return replaced;
-    }
+    std::string refusal, ///< who has the lock and what to do, in words; empty if this has it
+        dead_owner;      ///< the process whose lock was replaced, in words; empty if there was none
 
   private:
     bool make();
 
     const std::string file, text;
-    std::string why_not, replaced;
   };
 
   /// What an action of this rank complains of; empty: nothing.

@@ -52,18 +52,6 @@ namespace scree
 
     /// Throws EntryError at maps of a scene that has none, and at formats that it or the program does not have.
     void check(const bool has_soil, const unsigned int dim) const;
-
-    /// Whether maps in space are ESRI ASCII grids.
-    bool writes_ascii_grid() const
-    {
-      return format != "GeoTIFF";
-    }
-
-    /// Whether maps in space are GeoTIFF.
-    bool writes_geo_tiff() const
-    {
-      return format != "ASCII grid";
-    }
   };
 
   /// Subsection Output.

@@ -83,7 +83,7 @@ namespace scree
     /// The run that wrote there before and has died without an end, in words; empty if there was none.
     std::string dead_run() const
     {
-      return lock ? lock->dead_owner() : "";
+      return lock ? lock->dead_owner : "";
     }
 
     /// True on the rank that writes.
@@ -104,7 +104,7 @@ namespace scree
         return "the run cannot write there: " + (error ? error.message() : "no file can be written there") +
                ". Name a folder in which you may write.";
       lock = std::make_unique<FolderLock>(file("lock"));
-      return lock->refusal();
+      return lock->refusal;
     }
     bool is_present() const
     {

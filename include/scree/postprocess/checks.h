@@ -9,17 +9,6 @@
 
 namespace scree
 {
-  /// What a run watches itself for.
-  enum class Check : unsigned int
-  {
-    speed,     ///< fastest point over the largest 99.9 % quantile of the speeds so far
-    depth,     ///< of a point below the bed, over the cell size
-    shrinkage, ///< V_0/V of soil
-    dilation,  ///< V/V_0 of soil in contact, mean of a cell
-    stress,    ///< p' or vertical stress, the smaller, over rho g H of the soil, H from its lowest to its highest point
-    lost       ///< points of soil that left the box
-  };
-
   /// Looks at the points now and then for what a sound run does not do, and logs where and when it first did.
   template <int dim>
   class RunChecks
@@ -59,7 +48,17 @@ namespace scree
     }
 
   private:
-    static constexpr unsigned int n_checks = 6;
+    /// What a run watches itself for.
+    enum Check : unsigned int
+    {
+      speed,     ///< fastest point over the largest 99.9 % quantile of the speeds so far
+      depth,     ///< of a point below the bed, over the cell size
+      shrinkage, ///< V_0/V of soil
+      dilation,  ///< V/V_0 of soil in contact, mean of a cell
+      stress, ///< p' or vertical stress, the smaller, over rho g H of the soil, H from its lowest to its highest point
+      lost,   ///< points of soil that left the box
+      n_checks
+    };
 
     /// The point that is worst in a check.
     struct Suspect
@@ -92,8 +91,8 @@ namespace scree
     /// Takes the worst of all ranks and logs what is wrong for the first time. Collective.
     void agree(const double time);
 
-    static bool is_wrong(const Check check, const double value);
-    static std::string text(const Check check, const Suspect &suspect);
+    static bool is_wrong(const unsigned int check, const double value);
+    static std::string text(const unsigned int check, const Suspect &suspect);
 
     const BackgroundGrid<dim> &grid;
     const dealii::Tensor<1, dim> gravity;

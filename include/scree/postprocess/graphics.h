@@ -36,38 +36,6 @@ namespace scree
     }
   };
 
-  /// All fields but those of the laws, see Material::internal_quantities() and Material::output_quantities().
-  namespace fields
-  {
-    // Of points of soil and water; velocity and porosity also of the grid.
-    inline const OutputField velocity{ "velocity", "m/s", FieldKind::vector }; ///< of points and grid
-    inline const OutputField mass{ "mass", "kg" };                             ///< of a point
-    inline const OutputField volume{ "volume", "m^3" };                        ///< of a point
-    inline const OutputField seepage_velocity{ "seepage_velocity",
-                                               "m/s",
-                                               FieldKind::vector }; ///< velocity of the water relative to the soil
-    inline const OutputField porosity{ "porosity", "-" };           ///< pores over volume
-
-    // Of points of soil; the mean effective stress also of the grid.
-    inline const OutputField stress{ "stress", "Pa", FieldKind::tensor };            ///< Cauchy, tension positive
-    inline const OutputField mean_effective_stress{ "mean_effective_stress", "Pa" }; ///< compression positive
-    inline const OutputField deviatoric_stress{ "deviatoric_stress", "Pa" };         ///< q
-    inline const OutputField stress_ratio{ "stress_ratio", "-" };                    ///< q over mean effective stress
-    inline const OutputField body{ "body", "-" };                                    ///< number of the body
-    inline const OutputField pore_pressure{ "pore_pressure", "Pa" };                 ///< of the water around the point
-    inline const OutputField id{ "id", "-" };                                        ///< number of the point
-    inline const OutputField displacement{ "displacement", "m", FieldKind::vector }; ///< since the start
-
-    // Of points of water; the pressure also of the grid.
-    inline const OutputField pressure{ "pressure", "Pa" };      ///< of the water
-    inline const OutputField inside_soil{ "inside_soil", "-" }; ///< 1 where the water is in pores
-
-    // Of the grid.
-    inline const OutputField density{ "density", "kg/m^3" };                               ///< of the soil
-    inline const OutputField water_velocity{ "water_velocity", "m/s", FieldKind::vector }; ///< of the water
-    inline const OutputField saturation{ "saturation", "-" };                              ///< of the pores
-  }                                                                                        // namespace fields
-
   /// Fields at one time that have been gathered to be written.
   class Picture
   {
@@ -224,19 +192,10 @@ namespace scree
     {
     }
 
-    /// Gathers the state at `time` under the next number; the job writes it, a `.pvd` last.
-    /// Fields have the names and units of output_field.h. Points (if there is soil): velocity (m/s), stress (Pa,
-    /// tension positive, 3 x 3), mean_effective_stress P, deviatoric_stress q (Pa), stress_ratio q/P, mass (kg), volume
-    /// (m^3), body (number), id (lasting, unique in its body), displacement (m, if points keep their start), and the
-    /// law's internal variables and derived fields. Grid: velocity (m/s) at the cells' corners, mean density (kg/m^3)
-    /// and P (Pa) of the cells.
-    ///
+    /// Gathers the state at `time` under the next number; the job writes it, a `.pvd` last. doc/output.md has the
+    /// fields of soil points, water points and grid cells.
     /// @param field the soil's, solved: its mass and velocity are read
-    /// @param view null in a dry run. Else points gain porosity n = 1 - m/(rho_s V), pore_pressure (Pa) and
-    /// seepage_velocity n (v_w - v_s) (m/s), and the grid water_velocity (m/s) and pressure (Pa) at the corners,
-    /// porosity and saturation of the cells. Water points, or soil points seen as carriers of water: velocity (m/s),
-    /// pressure (Pa), mass (kg) and volume (m^3) of the water, porosity of the soil in the cell (1 without soil),
-    /// inside_soil (1 in cells with soil points, else 0) and seepage_velocity (m/s, 0 without soil).
+    /// @param view null in a dry run; soil points that carry water are water points, too
     FileJob write(const std::list<SoilBody<dim>> &bodies,
                   const NodalField<dim> &field,
                   const double time,

@@ -19,8 +19,8 @@ namespace scree
   public:
     /// Lists the places, m.
     PlaceValues(const BackgroundGrid<dim> &grid, const std::vector<dealii::Point<dim>> &places)
-        : grid(grid)
-        , place_list(places)
+        : places(places)
+        , grid(grid)
     {
       for (unsigned int i = 0; i < places.size(); ++i)
         for (unsigned int n = 0; n < dealii::Utilities::fixed_power<dim>(3u); ++n)
@@ -62,11 +62,7 @@ namespace scree
     /// The same of the water.
     std::vector<std::vector<double>> of_water(const std::list<WaterPhase<dim>> &water) const;
 
-    /// The places, m, in the order of the rows.
-    const std::vector<dealii::Point<dim>> &places() const
-    {
-      return place_list;
-    }
+    const std::vector<dealii::Point<dim>> places; ///< m, in the order of the rows
 
   private:
     using CellPlace = std::array<int, dim>; // numbers of a cell along the axes
@@ -94,7 +90,6 @@ namespace scree
     std::vector<std::vector<double>> fit(Sums &sums) const;
 
     const BackgroundGrid<dim> &grid;
-    const std::vector<dealii::Point<dim>> place_list;
     std::map<CellPlace, std::vector<unsigned int>> places_near_cell;
   };
 
@@ -254,11 +249,6 @@ namespace scree
       std::function<Rows(const ProbedState<dim> &)> rows; // one a table; a single table has all of them
     };
 
-    void add_table(Group &group, const std::string &name)
-    {
-      group.tables.push_back(&tables.emplace_back(folder, "probe_" + name));
-    }
-
     void write(const ProbedState<dim> &state, const bool of_pictures)
     {
       for (Group &group : groups)
@@ -275,7 +265,7 @@ namespace scree
     }
     Rows state_at(const PlaceValues<dim> &places, const ProbedState<dim> &state) const
     {
-      Rows rows      = has_soil ? places.of_soil(state.bodies) : Rows(places.places().size());
+      Rows rows      = has_soil ? places.of_soil(state.bodies) : Rows(places.places.size());
       const Rows wet = has_water ? places.of_water(state.water) : Rows(rows.size());
       for (unsigned int i = 0; i < rows.size(); ++i)
         rows[i].insert(rows[i].end(), wet[i].begin(), wet[i].end());

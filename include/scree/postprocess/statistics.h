@@ -7,6 +7,8 @@
 #include <scree/postprocess/measures.h>
 #include <scree/step/budget.h>
 
+#include <boost/range/adaptor/map.hpp>
+#include <boost/range/iterator_range.hpp>
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/utility.hpp>
 
@@ -319,19 +321,13 @@ namespace scree
     /// The whole names of the columns of the last row.
     std::vector<std::string> columns() const
     {
-      std::vector<std::string> result;
-      for (const auto &[column, value] : last_row)
-        result.push_back(column);
-      return result;
+      return boost::copy_range<std::vector<std::string>>(last_row | boost::adaptors::map_keys);
     }
 
     /// The numbers of the last row.
     std::vector<double> values() const
     {
-      std::vector<double> result;
-      for (const auto &[column, value] : last_row)
-        result.push_back(value);
-      return result;
+      return boost::copy_range<std::vector<double>>(last_row | boost::adaptors::map_values);
     }
 
     /// Prints the last row, one quantity a line.

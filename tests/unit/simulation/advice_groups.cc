@@ -44,7 +44,7 @@ SceneNumbers slope()
   scene.fall         = 0.3;
   scene.is_elastic   = false;
   scene.mean         = { 4e6, 4e6, 1500 };
-  scene.fastest      = { 7e6, 4e6, 1500, 14e3 };
+  scene.fastest      = { 7e6, 4e6, 1500 };
   scene.conductivity = 5e-3;
   return scene;
 }
