@@ -281,19 +281,46 @@ void test(const std::string &basis, const double volume, const std::vector<doubl
     }
 
   // A traction of 1 along an axis at one row, of one rank after the other: its own flow is the diagonal.
-  std::vector<double> diagonal;
-  scene.schur.find_diagonal_of_rows(diagonal);
-  first = 0.;
+  scene.rows.set_mobilities(scene.schur.mobilities());
+  const unsigned int n_rows = scene.rows.all.size();
+  first                     = 0.;
   for (unsigned int rank = 0; rank < Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD); ++rank)
     {
-      typename GroundRows<dim>::Vectors tractions(diagonal.size());
-      const bool is_own = rank == Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) && !diagonal.empty();
+      typename GroundRows<dim>::Vectors tractions(n_rows);
+      const bool is_own = rank == Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) && n_rows > 0;
       if (is_own)
         tractions[0][0] = 1.;
       scene.schur.vmult(s_first, flows_first, first, tractions);
       if (is_own)
-        expect(flows_first[0][0] / diagonal[0], 1., 1e-11, name + "flow of a row over the diagonal");
+        expect(flows_first[0][0] / scene.rows.all[0].diagonal, 1., 1e-11, name + "flow of a row over the diagonal");
     }
+
+  // The preconditioner of the rows, with friction at some: symmetric, and the inverse up to 1 (Gauss-Seidel).
+  for (unsigned int k = 0; k < n_rows; ++k)
+    {
+      GroundRow<dim> &row = scene.rows.all[k];
+      row.held            = HeldMotion(k % 3);
+      row.compliance      = row.held == HeldMotion::all ? 0.5 * row.diagonal : 0.;
+    }
+  const auto flows_a = scene.tractions(1.), flows_b = scene.tractions(3.);
+  typename GroundRows<dim>::Vectors of_a, of_b;
+  scene.rows.precondition(flows_a, of_a);
+  scene.rows.precondition(flows_b, of_b);
+  first             = 0.;
+  const double used = product(first, first, of_a, flows_a);
+  require(used > 0., name + "The preconditioner of the rows is not positive.");
+  expect((product(first, first, of_a, flows_b) - product(first, first, of_b, flows_a)) / used,
+         0.,
+         1e-12,
+         name + "symmetry of the preconditioner of the rows");
+  for (unsigned int k = 0; k < n_rows; ++k)
+    expect((of_a[k] - scene.rows.all[k].held_part(of_a[k])).norm(), 0., 1e-12 * of_a[k].norm(), name + "free traction");
+  scene.schur.vmult(s_first, flows_first, first, of_a);
+  for (unsigned int k = 0; k < n_rows; ++k)
+    flows_first[k] += scene.rows.all[k].compliance * scene.rows.all[k].along(of_a[k]);
+  const double quotient = product(first, first, of_a, flows_first) / used;
+  require(quotient > 0.1 && quotient < 1. + 1e-12,
+          name + "Quotient of the preconditioned rows: " + std::to_string(quotient));
 }
 
 
