@@ -378,7 +378,8 @@ namespace scree
         stopped_energy(pair, { before.soil - wall_velocity.soil, before.water - wall_velocity.water }) -
         work_of(walls, wall_velocity);
     const Tensor<1, dim> soil_after = soil_predicted + change.soil;
-    const Tensor<1, dim> more       = friction.adjust(node, walls.soil, pair.soil_mass, soil_after);
+    // Beside the speed at which the soil closes a gap: friction acts along the wall.
+    const Tensor<1, dim> more = friction.adjust(node, walls.soil, pair.soil_mass, soil_after - wall_velocity.soil);
     const SoilAndWater<dim> further = pair.solve({ more, Tensor<1, dim>() });
     change.soil += further.soil;
     change.water += further.water;
