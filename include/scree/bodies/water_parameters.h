@@ -11,7 +11,7 @@ namespace scree
   /// Subsection Pressure of subsection Water.
   struct PressureParameters
   {
-    double relative_tolerance       = 1e-4; ///< of the residual, over the larger of |b| and |S p|
+    double relative_tolerance       = 3e-5; ///< of the residual, over the larger of |b| and |S p|
     unsigned int maximum_iterations = 500;  ///< the run ends with an error beyond them
     double cavitation_pressure      = -1e5; ///< Pa
 

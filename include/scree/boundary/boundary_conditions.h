@@ -23,18 +23,18 @@ namespace scree
       all
     };
 
-    Holds holds                 = Holds::nothing;
-    bool lets_lift_off          = false; ///< it holds soil that moves into it, with Coulomb friction along it
-    double friction_coefficient = 0;     ///< of one that soil lifts off from; may be infinite
-    double pressure             = 0;     ///< of the water where it holds nothing, Pa
+    Holds holds                 = Holds::nothing; ///< while the soil does not lift off
+    bool lets_lift_off          = false;          ///< it holds soil that moves into it, with Coulomb friction along it
+    double friction_coefficient = 0;              ///< of one that soil lifts off from; may be infinite
+    double pressure             = 0;              ///< of the water where it holds nothing, Pa
   };
 
   /// A kind of wall, as entries have it: its name, or name and number.
   struct WallType
   {
-    std::string name;
-    std::string number; ///< what the number is, for messages and pages; empty: there is none
-    Wall (*make)(const double number);
+    std::string name;                  ///< as in entries
+    std::string number;                ///< what the number is, for messages and pages; empty: there is none
+    Wall (*make)(const double number); ///< the wall; 0 where there is no number
     double least = std::numeric_limits<double>::lowest(); ///< of the number
     double below = std::numeric_limits<double>::max();    ///< limit that it does not reach
   };
