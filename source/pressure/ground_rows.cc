@@ -132,6 +132,8 @@ namespace scree
     motions.assign(motions.size(), NodeRow{});
     const auto relax = [&](const unsigned int k) {
       const GroundRow<dim> &row = all[k];
+      if (row.diagonal == 0.)
+        return; // Nothing of the phase is there.
       NodeRow flow{};
       for (unsigned int j = k * n_nodes; j < (k + 1) * n_nodes; ++j)
         flow += of_flow[j] * motions[corners[j]];

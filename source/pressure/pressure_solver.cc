@@ -13,8 +13,8 @@ namespace scree
   namespace
   {
     /// In the preconditioner: of the inverse diagonal of S, beside the inverse of L. S is far less than L for pressures
-    /// that oscillate from vertex to vertex. CG iterations per step with 0.1, 0.2, 0.3: saturated slope 5.0, 4.6, 4.3;
-    /// saturated slide on a mountain 97, 100, 104.
+    /// that oscillate from vertex to vertex. CG iterations per step with 0.1, 0.2, 0.3: saturated slope 5.0, 4.4, 4.3;
+    /// saturated slide on a mountain 97, 96, 104.
     constexpr double part_of_diagonal = 0.2;
   } // namespace
 
@@ -399,7 +399,7 @@ namespace scree
   PressureSolver<dim>::solve(const Task &task, VertexVector &change, GroundRows<dim> *of_ground)
   {
     constexpr unsigned int most_sweeps   = 5;   // What changes after them is held without another solve.
-    constexpr unsigned int most_releases = 3;   // Then rows and pressures are only added, so that the search ends.
+    constexpr unsigned int most_releases = 3;   // Then rows are only added, so that the search ends.
     constexpr double coarser             = 10.; // friction that changes by less has been found
     ground                               = of_ground;
     rows                                 = ground ? &ground->all : nullptr;
@@ -433,14 +433,14 @@ namespace scree
         for (unsigned int sweep = 0;; ++sweep)
           {
             converge(pass == 1 && sweep == 0 ? result.first : result.further);
-            const bool is_last = sweep == most_sweeps, releases = pass == 1 && sweep < most_releases;
-            double found = 0.;
+            const bool is_last = sweep == most_sweeps;
+            double found       = 0.;
             if (rows || sweep > 0)
               find_residual();
             if (task.has_pressure)
-              found += choose_vertices(task, releases);
+              found += choose_vertices(task, pass == 1 && !is_last);
             if (rows && !is_last)
-              found += choose_rows(releases);
+              found += choose_rows(pass == 1 && sweep < most_releases);
             found = std::sqrt(Utilities::MPI::sum(found, grid.communicator()));
             if (is_last || (found <= tolerance && accepted == tolerance))
               break;
