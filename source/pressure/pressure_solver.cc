@@ -401,6 +401,7 @@ namespace scree
     constexpr unsigned int most_sweeps   = 5;   // What changes after them is held without another solve.
     constexpr unsigned int most_releases = 3;   // Then rows are only added, so that the search ends.
     constexpr double coarser             = 10.; // friction that changes by less has been found
+    constexpr double alone               = 0.1; // of the tolerance: rows beside a held pressure decide on creep
     ground                               = of_ground;
     rows                                 = ground ? &ground->all : nullptr;
     for (Joint *vector : { &source, &solution, &scratch })
@@ -411,7 +412,7 @@ namespace scree
     take(change, solution.of_vertices);
     if (rows)
       start_rows();
-    set_tolerance(task.relative_tolerance);
+    set_tolerance(task.has_pressure ? task.relative_tolerance : alone * task.relative_tolerance);
     is_held.assign(system.n_owned(), !task.has_pressure);
     Result result;
     const bool rubs = rows && Utilities::MPI::logical_or(
