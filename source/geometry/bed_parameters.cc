@@ -335,16 +335,29 @@ namespace scree
       };
       return std::make_pair(number(place - shortest), number(place + shortest));
     };
+    const auto look_at_ground = [&](const int i, const int j) {
+      const Point<3> a = node(i, j), b = node(i + 1, j), c = node(i, j + 1), d = node(i + 1, j + 1);
+      // No place of this square is nearer than its box.
+      const auto [low, high] = std::minmax({ a[2], b[2], c[2], d[2] });
+      const Tensor<1, 3> beyond({ std::max({ a[0] - x[0], x[0] - d[0], 0. }),
+                                  std::max({ a[1] - x[1], x[1] - d[1], 0. }),
+                                  std::max({ low - x[2], x[2] - high, 0. }) });
+      if (beyond.norm() * (1. - 1e-12) > shortest)
+        return;
+      look_at({ { a, b, c } });
+      look_at({ { d, c, b } });
+    };
     const auto [first_column, last_column] = range(x[0], raster.x, raster.n_columns);
     const auto [first_row, last_row]       = range(x[1], raster.y, raster.n_rows);
+    if (const int i = (first_column + last_column) / 2, j = (first_row + last_row) / 2; has_ground(i, j))
+      look_at_ground(i, j); // near at once, so that the others are left out
     for (int j = first_row; j <= last_row; ++j)
       for (int i = first_column; i <= last_column; ++i)
         {
           if (!has_ground(i, j))
             continue;
+          look_at_ground(i, j);
           const Point<3> a = node(i, j), b = node(i + 1, j), c = node(i, j + 1), d = node(i + 1, j + 1);
-          look_at({ { a, b, c } });
-          look_at({ { d, c, b } });
           // The ground ends beside missing heights in a vertical wall; its normal points to them.
           const auto look_at_wall = [&](const int column, const int row, const Point<3> &left, const Point<3> &right) {
             if (column < 0 || row < 0 || column + 1 == int(raster.n_columns) || row + 1 == int(raster.n_rows) ||
