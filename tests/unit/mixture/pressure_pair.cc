@@ -74,7 +74,7 @@ public:
         const double kind = pattern(x), n = kind < -0.5 ? 0. : kind > 0.5 ? 1. : 0.7 + 0.2 * kind;
         const DragMobility mobility =
             drag_mobility(n < 1. ? 1.5 + kind : 0., n > 0. ? 1. + pattern(2. * x) / 2. : 0., 10.);
-        nodes.all.push_back({ node, n, mobility, PressedNode<dim>::free });
+        nodes.all.push_back({ node, n, n < 1., mobility, PressedNode<dim>::free });
         pores[node][PoreField<dim>::grain_fraction] = 1. - n;
         for (NodalField<dim> *field : { &soil_field, &water_field })
           (*field)[node][NodalField<dim>::mass] = 1.;
