@@ -12,12 +12,17 @@ namespace scree
     std::atomic<int> received{ 0 }; // the last signal, which any thread may get
     static_assert(std::atomic<int>::is_always_lock_free, "A signal must not wait.");
 
-    /// Whether the program was started under nohup; PETSc sets a handler of its own in MPI_InitFinalize.
-    const bool hangup_is_ignored = [] {
-      struct sigaction action = {};
+    /// Whether the program was started under nohup: asked before the constructors of the libraries, since those of Open
+    /// MPI 5 and MPI_InitFinalize set handlers of their own.
+    bool hangup_is_ignored = false;
+
+    void look_for_nohup()
+    {
+      struct sigaction action; // To set it to 0 might take an instruction that require_processor() has yet to look for.
       sigaction(SIGHUP, nullptr, &action);
-      return action.sa_handler == SIG_IGN;
-    }();
+      hangup_is_ignored = action.sa_handler == SIG_IGN;
+    }
+    [[gnu::section(".preinit_array"), gnu::used]] void (*const before_all)() = look_for_nohup;
 
     extern "C" void remember(const int signal)
     {

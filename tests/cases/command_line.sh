@@ -103,7 +103,7 @@ END
     $launcher "$ranks" "$scree" case.prm >screen
     cat screen
     if [ "$ranks" -eq 1 ]; then named='1 rank'; else named='2 ranks'; fi
-    sed -n 1p screen | grep -Eqx "Scree [0-9.]+ \([0-9a-f]+(-dirty)?\), $named +20[0-9][0-9]-[0-9-]+ [0-9:]+ \w+"
+    sed -n 1p screen | grep -Eqx "Scree [0-9.]+ \((unknown|[0-9a-f]+(-dirty)?)\), $named +20[0-9][0-9]-[0-9-]+ [0-9:]+ \w+"
     sed -n 2p screen | grep -qx 'Case        case.prm -> results'
     sed -n 3p screen | grep -Eqx 'Model       2D plane strain, dry, AFLIP \(PIC rate auto: [0-9.]+ 1/s\), [1-9][0-9]* soil points'
     sed -n 4p screen | grep -qx 'Mesh        128 cells of 0.125 m'

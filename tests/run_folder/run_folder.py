@@ -468,7 +468,7 @@ def log_header():
         r"Mesh        120 cells of 0\.1 m\n"
         r"Memory      ([1-9]\d+) MB estimated\n"
         r"Libraries   deal\.II [0-9.]+, Trilinos [0-9.]+, p4est [0-9.]+, GDAL [0-9.]+\n"
-        r"Compiler    \w+ [0-9.]+, (Release|Debug), flags .*-std=c\+\+17.*\n"
+        r"Compiler    \w+ [0-9.]+, (Release|Debug), flags .*-O\d.*\n"
         r"Process     \d+ on \S+ \(first rank\)\n"
         r"In use      [1-9]\d+ MB at the start \(all ranks\)\n"
     )
