@@ -163,15 +163,14 @@ def row_of(study, run):
 
 def page_texts():
     """{file: text} of the list of the studies and of all pages, from the committed tables."""
-    studies, introductions = {}, {}
+    studies = {}
     for name in names_of_studies():
-        table, module = PAGES / f"{name}.csv", module_of(name)
+        table, study = PAGES / f"{name}.csv", module_of(name).STUDY
         if table.exists():
             rows = read_table(table)
-            studies[name] = module.STUDY, rows, module.STUDY.verdict(rows)
-            introductions[name] = module.__doc__.strip()
+            studies[name] = study, rows, study.verdict(rows)
     return {PAGES / "README.md": index_text(studies),
-            **{PAGES / f"{topic}.md": page_text(topic, studies, introductions) for topic, (_, names) in TOPICS.items() if set(names) & studies.keys()}}
+            **{PAGES / f"{topic}.md": page_text(topic, studies) for topic, (_, names) in TOPICS.items() if set(names) & studies.keys()}}
 
 
 def finish(name, study, folder, rows=None):

@@ -1,17 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Predicted cost (`scree --advise`) against measured cost for the cases of `prm/` but those with inflow, and variants that were written after the advice.
-Cases that run for many minutes are compared over a first part only; column "whole" of the CSV is False for them, "simulated" is its length in s.
-Cost is processor time of the time steps and the output, without the start-up.
-Run and advice are made three times in turn, and their medians are compared.
-`vibrating_bar` was measured again (first 1.66): 0.1 s of file output, while programs were compiled on the same machine.
-
-The advice extrapolates from half a core-second of the first time steps, one row and one picture.
-A run of the whole case with cells at least twice as wide gives the number of time steps and the growth of their cost.
-Only the cost of a checkpoint was set on these cases.
-The cases of `prm/terrain/mountain_*` are newer than the table.
-`slope_loose` and `slope_loose_fine` were measured with 4 x 4 points per cell, which these cases had then.
-Four rows of cases that are no longer in `prm/` were removed; among them was the largest factor, 1.33.
-"""
+"""The text of its section: doc/studies/intro/advice.md."""
 
 import math
 import re

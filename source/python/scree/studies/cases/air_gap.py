@@ -1,8 +1,5 @@
-"""A body 0.4 m high falls on another one, 0.4 m high, between smooth walls; the upper one is named first.
-In the exact end state all is at rest and the gap is closed: air has no pressure.
-The gap (in cells of 0.05 m) and the speed at the start vary.
-The oscillation of p is its RMS at the end (`measures.roughness`) over rho_w g 0.8 m.
-"""
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The text of its section: doc/studies/intro/air_gap.md."""
 import numpy as np
 
 from scree.studies.charts import StabilityMap

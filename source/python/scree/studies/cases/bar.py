@@ -1,10 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""An elastic bar between two walls vibrates in its first mode at small strain, v = V sin(pi x) cos(pi c t); no point crosses a cell.
-The error is the RMS over velocity and stress of their relative L2 errors over the points at 2.125 periods.
-Velocities are those of half a time step before, as in symplectic Euler.
-Runs with an error above 1 have diverged.
-`prm/dynamics/vibrating_bar.prm` has splines, FLIP without PIC rate, 4 x 4 points per cell, Courant number 0.6 and no F-bar.
-"""
+"""The text of its section: doc/studies/intro/bar.md."""
 
 import math
 

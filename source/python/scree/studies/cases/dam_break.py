@@ -1,12 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Dam break on a smooth floor (`prm/water/dam_break.prm`), to t sqrt(2 g/a) = 3.
-The error is the RMS distance to the run of the case with h = 1/60 m, over time (each 0.04 s from 0.2 s on) and over three lengths.
-These are the fronts of 90 and 99 % of the water and the height of the centre of mass, each over its displacement in the reference.
-Sentences and table add the distance of the reference to the limit, A (1/60 m)^p, from the fit error = A (h^p - (1/60 m)^p) to the three meshes of the case.
-The case has AFLIP, splines, 4 x 4 points per cell, a relative tolerance of the pressure of 1e-4, time steps of at most 0.04 s/m times h, Advection number 0.3
-and a volume correction of 7 1/s.
-It keeps 4 x 4 points: with 3 x 3 it gains 0.58 % of the released energy up to 0.9 s (bound 0.5 %), with 4 x 4 it gains 0.04 %.
-"""
+"""The text of its section: doc/studies/intro/dam_break.md."""
 
 import math
 

@@ -1,16 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A slope of dense dry sand fails and runs out (`prm/slopes/slope_dense.prm`, the first 1.5 s).
-There is no exact solution: the error is the RMS distance to the run of the defaults with h = 0.04 m, over time (each 0.1 s from 0.5 s on) and over three
-lengths.
-These are the fronts of 90 and 99 % of the mass and the height of the centre of mass, each over its displacement in the reference.
-Errors that all meshes share, that of the fixed base above all, are not seen.
-
-The reference has not converged.
-Sentences and table add its distance to the limit, A (0.04 m)^p, from the fit error = A (h^p - (0.04 m)^p) to the four meshes of the defaults.
-A method with another limit would seem worse.
-
-The defaults are splines, FLIP with a PIC rate of 1 1/s, 4 x 4 points per cell, Courant number 0.6 and modified F-bar; the case itself has 5 1/s.
-"""
+"""The text of its section: doc/studies/intro/dry_slope.md."""
 
 import math
 

@@ -1,9 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A layer of grains, 0.2 m deep, runs down a plane of 20 degrees that is oblique to the mesh (`prm/bed/granular_dam_break.prm`).
-The reference is shallow flow in closed form (Mangeney, Heinrich & Roche 2000), for a bed and soil of 10 degrees, and for a smooth bed with soil of 1 degree.
-The error is the RMS of the depth (volume over a width of 0.1 m) over that of the layer, at 31 places from the end of the wave in the layer to its front.
-Shallow flow has no vertical acceleration and a front without depth: the error falls as the wave becomes long, not with the cells.
-"""
+"""The text of its section: doc/studies/intro/granular_dam_break.md."""
 
 import math
 

@@ -1,11 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Soft mud consolidates under its own weight below water (`prm/consolidation/large_strain_consolidation.prm`, to T_v = 1).
-The strain is 24 % at the base, points cross cells, and water leaves the soil.
-The error is an RMS over T_v = 0.25, 0.5, 1 and over two L2 errors: of the excess pressure in the soil over its buoyant weight, and of the heights of the rows
-of points over the final settlement.
-The reference is a finite difference solution in the material height (`source/python/scree/closed_forms.py`).
-The case has double-point water, splines, AFLIP, 4 x 4 points per cell and phase, Courant number 0.6 and no F-bar.
-"""
+"""The text of its section: doc/studies/intro/large_strain.md."""
 
 import functools
 import math

@@ -1,9 +1,5 @@
-"""A column, as wide as high, collapses for 2 sqrt(height/g); its height is scaled from 2 m to 0.02 m and gravity from 1 to 0.01 of that of the Earth.
-The stress at its base falls from 30 kPa to 3 Pa, while the stiffness of the soil stays the same.
-Nor-Sand (loose; no stress below 1 Pa) and Mohr-Coulomb sand (cut off at 0), dry and saturated, have 8 cells over the height.
-The oscillation of p' is the time mean of `Stress oscillation`; it grows with the stiffness of the soil over its weight.
-No options are compared: all cells count as default cells.
-"""
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The text of its section: doc/studies/intro/low_stress.md."""
 import math
 
 from scree.studies.charts import StabilityMap

@@ -1,11 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A manufactured solution at large strain: in a closed box of side 1 m, points oscillate by up to 0.1 m along both axes, 0.8 to 6.4 cells, and cross cells all
-the time.
-A body force makes the motion exact; the state is that at 0.6 s (as `scenes/order_manufactured`).
-The error is the RMS over velocity and stress of their relative L2 errors over the points.
-The defaults are splines, FLIP with a PIC rate of 1 1/s, 4 x 4 points per cell, Courant number 0.6 and here no F-bar.
-The two methods with "points as fine as cells^2" have no run on the finest mesh.
-"""
+"""The text of its section: doc/studies/intro/manufactured.md."""
 
 import math
 

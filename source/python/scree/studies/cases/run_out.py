@@ -1,17 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Columns (1 m x 1 m) and slopes (crest 2 m, height 2 m, 45 degrees) of Nor-Sand, at rest, over the cell size.
-The front is the x below which 90 or 99 % of the mass lies; the rest is a tongue thinner than a cell.
-Recommended: a base with friction of the soil at critical state in simple shear, 22.3 degrees, and for dry soil FLIP with a PIC rate of 1/s.
-Slopes with water use TPIC, which has no such rate.
-The fixed base is that of `prm/columns/column_*.prm` and `prm/slopes/slope_*.prm`, with a PIC rate of 5/s.
-
-Some choices were made after results were there: the quantile of 90 %, base and PIC rate (seen on the dense column), 3 x 3 points in the dry dense slope
-and the fourth size of the saturated ones.
-The last changes at 90 % are therefore no test of the treatment on new cases.
-
-Value at h = 0: mean of the least-squares fits with errors in proportion to h and to h^2, with half their distance and the RMS deviation of the worse one.
-Times: columns 1.5 s, slopes 3 s (dry), 5 s (loose), 6 s (permeable, k = 5e-2 m/s) and 9 s (dense, k = 5e-3 m/s, which still slides).
-"""
+"""The text of its section: doc/studies/intro/run_out.md."""
 
 import math
 

@@ -1,12 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A saturated slope of loose sand slides (`prm/slopes/slope_saturated_loose.prm`, the first 1.5 s).
-There is no exact solution.
-The error is the distance to a run of FLIP with h = 0.05 m and 3 x 3 points per cell, formed as in [the dry slope](run_out.md#dry-slope-error-over-cost).
-That run was chosen after the first results, as the fronts of FLIP are the farthest on every mesh: FLIP is the nearest to it in part by construction.
-The defaults of the chart are the entries of the case: double-point water, AFLIP, splines, 4 x 4 points per cell and phase, modified F-bar, Courant number
-0.6 and time steps of at most 1e-3 s.
-The case keeps 4 x 4 points: with 3 x 3 its front of 99 % is 0.51 % farther at 2 s, bound 0.5 % (h = 0.05 m).
-"""
+"""The text of its section: doc/studies/intro/saturated_slope.md."""
 
 import math
 

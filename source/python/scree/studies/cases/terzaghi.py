@@ -1,9 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Terzaghi's consolidation (`prm/consolidation/terzaghi.prm`) with a tenth of the load of the case, so that the settlement changes p/q by less than 5e-4.
-The error is the RMS of the L2 errors of p/q over the water points at T_v = 0.1, 0.5 and 1, against the series.
-The CSV also has the error against the solution with inertia (`source/python/scree/closed_forms.py`) and that of the degree of consolidation.
-The case has double-point water, splines, AFLIP, 4 x 4 points per cell and phase, Courant number 0.6 and a relative tolerance of the pressure of 1e-4.
-"""
+"""The text of its section: doc/studies/intro/terzaghi.md."""
 
 import math
 
