@@ -6,23 +6,14 @@ import math
 import numpy as np
 
 from scree.studies.charts import WorkPrecision
-from scree.studies.precision import DEFAULTS, at_finest, costs, failed, order, ratio, table
+from scree.studies.precision import DEFAULTS, at_finest, costs, failed, methods, order, ratio, table
 from scree.studies.study import Claim, Study, axis, product, transfer
 
 SPEED, MODULUS, AMPLITUDE = math.sqrt(10.), 1e4, 1e-5  # of the wave, m/s; Pa; m/s
 TIME = 4.25 / SPEED  # s
 
-METHODS = {
-    DEFAULTS: {},
-    "linear": {"Mesh/Basis": "linear"},
-    "PIC rate 5": {"Transfer/PIC rate": 5},
-    "TPIC": transfer("TPIC"),
-    "2 x 2 points": {"Soil/Points per cell": 2},
-    "3 x 3 points": {"Soil/Points per cell": 3},
-    "Courant number 0.15": {"Time step/Courant number": 0.15},
-    "Courant number 0.9": {"Time step/Courant number": 0.9},
-    "modified F-bar": {"Stabilisation/F-bar": "modified"},
-}
+METHODS = methods("linear", "PIC rate 5", {"TPIC": transfer("TPIC")}, "2 x 2 points", "3 x 3 points", "Courant number 0.15", "Courant number 0.9",
+                  "modified F-bar", without="Water")
 
 
 def mesh(h):

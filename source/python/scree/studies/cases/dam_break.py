@@ -8,26 +8,15 @@ import numpy as np
 from scree.studies.cases import dry_slope
 from scree.studies.charts import WorkPrecision
 from scree.studies.measures import lost_energy
-from scree.studies.precision import DEFAULTS, LimitFit, at_finest, costs, curve, ratio, table
+from scree.studies.precision import DEFAULTS, LimitFit, at_finest, costs, curve, methods, ratio, table
 from scree.studies.study import Claim, Study, axis, product
 
 STEP = 0.04  # s/m: longest step over cell size
 REFERENCE = 1 / 60  # m, cells of the reference
 
-METHODS = {
-    DEFAULTS: {},
-    "linear": {"Mesh/Basis": "linear"},
-    "2 x 2 points": {"Water/Points per cell": 2},
-    "3 x 3 points": {"Water/Points per cell": 3},
-    "6 x 6 points": {"Water/Points per cell": 6},
-    "FLIP": {"Transfer/Method": "FLIP"},
-    "half the step": {"Time step/Advection number": 0.15},
-    "twice the step": {"Time step/Advection number": 0.6},
-    "tolerance 1e-2": {"Water/Pressure/Relative tolerance": 1e-2},
-    "tolerance 1e-6": {"Water/Pressure/Relative tolerance": 1e-6},
-    "tolerance 1e-9": {"Water/Pressure/Relative tolerance": 1e-9},
-    "no volume correction": {"Water/Volume correction rate": 0},
-}
+METHODS = methods("linear", "2 x 2 points", "3 x 3 points", "6 x 6 points", "FLIP",
+                  {"half the step": {"Time step/Advection number": 0.15}, "twice the step": {"Time step/Advection number": 0.6}},
+                  "tolerance 1e-2", "tolerance 1e-6", "tolerance 1e-9", {"no volume correction": {"Water/Volume correction rate": 0}}, without="Soil")
 FACTORS = {"half the step": 0.5, "twice the step": 2.}
 
 

@@ -7,23 +7,11 @@ import numpy as np
 
 from scree.studies.charts import WorkPrecision
 from scree.studies.measures import energy_gain, lost_energy
-from scree.studies.precision import DEFAULTS, LimitFit, at_finest, costs, curve, ratio, table
-from scree.studies.study import Claim, Study, axis, product
+from scree.studies.precision import DEFAULTS, LimitFit, at_finest, costs, curve, methods, ratio, table
+from scree.studies.study import Claim, Study, axis, product, transfer
 
-METHODS = {
-    DEFAULTS: {},
-    "linear": {"Mesh/Basis": "linear"},
-    "no F-bar": {"Stabilisation/F-bar": "none"},
-    "standard F-bar": {"Stabilisation/F-bar": "standard"},
-    "2 x 2 points": {"Soil/Points per cell": 2},
-    "3 x 3 points": {"Soil/Points per cell": 3},
-    "PIC rate 0": {"Transfer/PIC rate": 0},
-    "PIC rate 5": {"Transfer/PIC rate": 5},
-    "PIC rate 20": {"Transfer/PIC rate": 20},
-    "TPIC": {"Transfer/Method": "TPIC"},
-    "Courant number 0.3": {"Time step/Courant number": 0.3},
-    "Courant number 0.9": {"Time step/Courant number": 0.9},
-}
+METHODS = methods("linear", "no F-bar", "standard F-bar", "2 x 2 points", "3 x 3 points", "PIC rate 0", "PIC rate 5", "PIC rate 20", {"TPIC": transfer("TPIC")},
+                  "Courant number 0.3", "Courant number 0.9", without="Water")
 REFERENCE = 0.04  # m, cells of the reference
 FINEST = (DEFAULTS, "3 x 3 points", "TPIC", "PIC rate 5")  # run on a fourth mesh
 

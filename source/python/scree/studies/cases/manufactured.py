@@ -7,26 +7,13 @@ import numpy as np
 
 from scree.studies.cases.bar import errors, relative
 from scree.studies.charts import WorkPrecision
-from scree.studies.precision import DEFAULTS, at_finest, curve, order, ratio, table
-from scree.studies.study import Claim, Study, axis, product
+from scree.studies.precision import DEFAULTS, at_finest, curve, methods, order, ratio, table
+from scree.studies.study import Claim, Study, axis, product, transfer
 
 AMPLITUDE, MODULUS, TIME = 0.1, 1e4, 0.6  # m, Pa, s
 
-METHODS = {
-    DEFAULTS: {},
-    "linear": {"Mesh/Basis": "linear"},
-    "PIC rate 0": {"Transfer/PIC rate": 0},
-    "PIC rate 5": {"Transfer/PIC rate": 5},
-    "TPIC": {"Transfer/Method": "TPIC"},
-    "2 x 2 points": {"Soil/Points per cell": 2},
-    "3 x 3 points": {"Soil/Points per cell": 3},
-    "6 x 6 points": {"Soil/Points per cell": 6},
-    "Courant number 0.3": {"Time step/Courant number": 0.3},
-    "Courant number 0.9": {"Time step/Courant number": 0.9},
-    "modified F-bar": {"Stabilisation/F-bar": "modified"},
-}
-
-
+METHODS = methods("linear", "PIC rate 0", "PIC rate 5", {"TPIC": transfer("TPIC")}, "2 x 2 points", "3 x 3 points", "6 x 6 points", "Courant number 0.3",
+                  "Courant number 0.9", "modified F-bar", without="Water")
 DENSER = {"points as fine as cells^2": {}, "TPIC, points as fine as cells^2": METHODS["TPIC"]}
 
 

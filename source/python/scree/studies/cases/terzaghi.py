@@ -7,7 +7,7 @@ import numpy as np
 
 from scree import closed_forms
 from scree.studies.charts import WorkPrecision
-from scree.studies.precision import DEFAULTS, costs, order, ratio, table
+from scree.studies.precision import DEFAULTS, costs, methods, order, ratio, table
 from scree.studies.study import ROOT, Claim, Study, axis, prm_files, product
 
 FACTORS = (0.1, 0.5, 1.)
@@ -18,19 +18,8 @@ COLUMN = closed_forms.Terzaghi(1., 100., closed_forms.oedometric_modulus(float(E
                                float(ENTRIES["Water/Hydraulic conductivity"]))
 GRAIN_DENSITY, POROSITY = float(ENTRIES["Soil/Grain density"]), float(ENTRIES["Soil/Initial porosity"])
 
-LINEAR, SINGLE = {"Mesh/Basis": "linear"}, {"Water/Point sets": "single"}
-METHODS = {
-    DEFAULTS: {},
-    "single-point": SINGLE,
-    "linear": LINEAR,
-    "linear, single-point": {**LINEAR, **SINGLE},
-    "Courant number 0.2": {"Time step/Courant number": 0.2},
-    "Courant number 0.9": {"Time step/Courant number": 0.9},
-    "2 x 2 points": {"Soil/Points per cell": 2, "Water/Points per cell": 2},
-    "3 x 3 points": {"Soil/Points per cell": 3, "Water/Points per cell": 3},
-    "tolerance 1e-3": {"Water/Pressure/Relative tolerance": 1e-3},
-    "tolerance 1e-9": {"Water/Pressure/Relative tolerance": 1e-9},
-}
+METHODS = methods("single-point", "linear", {"linear, single-point": {"Mesh/Basis": "linear", "Water/Point sets": "single"}}, "Courant number 0.2",
+                  "Courant number 0.9", "2 x 2 points", "3 x 3 points", "tolerance 1e-3", "tolerance 1e-9")
 
 
 def mesh(h):
