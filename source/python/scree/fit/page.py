@@ -35,9 +35,6 @@ def _pairs(problem, solution):
             yield test, table, column, laboratory.at_rows(column, test.coordinate, table, test.strain)
 
 
-# Report ---------------------------------------------------------------------------------------------------------------
-
-
 def text(problem, runs, solution):
     """Values, correlations, differences, flags; the same on the screen and in report.txt."""
     parts = [f"Fit of {problem.file}: {len(problem.tests)} tests, {problem.n_values} values, {len(problem.parameters)} free entries\n"
@@ -74,9 +71,6 @@ def _table(head, rows):
                      for cells in [head, *rows])
 
 
-# Files ----------------------------------------------------------------------------------------------------------------
-
-
 def _write_parameters(file, problem, solution):
     with open(file, "w", encoding="utf-8", newline="") as out:
         rows = csv.writer(out)
@@ -108,9 +102,6 @@ def snippet(problem, solution):
     lines += [f"# Differs between the tests: {entry} = {', '.join(case.get(entry, 'default') for case in cases)}." for entry in different]
     entries = {entry: value + comment for entry, (value, comment) in {**shared, **fitted}.items()}
     return variants.set_entries("\n".join(lines) + "\n", entries).rstrip("\n") + "\n"
-
-
-# Picture --------------------------------------------------------------------------------------------------------------
 
 
 def draw(problem, solution, file):

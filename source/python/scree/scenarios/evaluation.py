@@ -23,9 +23,6 @@ class Result(NamedTuple):
     unit: str
 
 
-# Numbers of a run -----------------------------------------------------------------------------------------------------
-
-
 def numbers_of(study, run):
     """{Result: value} of a run that has ended well."""
     run = pathlib.Path(run)
@@ -108,9 +105,6 @@ def value_at(raster, x, y):
     row = rows - 1 - np.floor((np.asarray(y) - raster.y) / raster.width).astype(int)
     is_inside = (column >= 0) & (column < columns) & (row >= 0) & (row < rows)
     return np.where(is_inside, raster.values[np.clip(row, 0, rows - 1), np.clip(column, 0, columns - 1)], np.nan)
-
-
-# All runs -------------------------------------------------------------------------------------------------------------
 
 
 def on_one_grid(rasters):

@@ -74,9 +74,6 @@ def _cell(value):
     return f"{value:.9g}" if np.isfinite(value) else ""  # national coordinates to 1 cm
 
 
-# Maps and pictures ----------------------------------------------------------------------------------------------------
-
-
 def word(study):
     """What a part of the runs is: a probability if the runs are drawn from the distributions, else only a share."""
     return "Share" if study.sampling == "one at a time" else "Probability"
@@ -160,9 +157,6 @@ def draw(study, done, probabilities):
         drawn["correlation"] = ("Rank correlation (Spearman) with each parameter; within the grey band (pale bars) it cannot be told from none "
                                 "with this number of runs (95 %)")
     return drawn
-
-
-# The report -----------------------------------------------------------------------------------------------------------
 
 
 def summary(study, done):

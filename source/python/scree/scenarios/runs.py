@@ -79,9 +79,6 @@ def _values(study):
             for number, row in zip(study.numbers, study.rows)}
 
 
-# Before the runs ------------------------------------------------------------------------------------------------------
-
-
 @contextlib.contextmanager
 def only_one(study):
     """Throws a ValueError if another scree-scenarios works in the folder."""
@@ -154,9 +151,6 @@ def estimate(study):
         reason = done.stderr.strip().splitlines() or ["it tells no time"]
         return float("nan"), f"scree --advise of the first run gives none: {reason[-1]}"
     return float(found.group(1)) + 1, "scree --advise of the first run, and 1 s for its start"
-
-
-# The runs -------------------------------------------------------------------------------------------------------------
 
 
 def duration(seconds):

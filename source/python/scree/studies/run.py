@@ -38,9 +38,6 @@ def module_of(name):
     return importlib.import_module(f"scree.studies.cases.{name}")
 
 
-# Runs -----------------------------------------------------------------------------------------------------------------
-
-
 def case_text(study, variant, folder=None):
     """The variant's parameter file, without an output directory; paths of files count from `folder`, or from the base."""
     text = prm_files.read_case(ROOT / (variant.base or study.base), folder)
@@ -118,9 +115,6 @@ def make_runs(name, study, arguments):
     return runs
 
 
-# Tables ---------------------------------------------------------------------------------------------------------------
-
-
 def _text(value):
     return f"{value:.5g}" if isinstance(value, (float, int)) and not isinstance(value, bool) else str(value)
 
@@ -156,9 +150,6 @@ def row_of(study, run):
         row.update(study.measure(run))
         study.chart.keep(run)
     return row
-
-
-# Pages ----------------------------------------------------------------------------------------------------------------
 
 
 def page_texts():

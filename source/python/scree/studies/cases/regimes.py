@@ -23,9 +23,6 @@ CONDUCTIVITIES = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6, 1e-12]
 SUBMERGED = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-12]
 
 
-# Cases ----------------------------------------------------------------------------------------------------------------
-
-
 def group(height, young, conductivity):
     """Time of drainage over time of motion, -."""
     return height**2 * WATER * GRAVITY / (conductivity * oedometric_modulus(young, POISSON)) / math.sqrt(height / GRAVITY)
@@ -109,9 +106,6 @@ def measure(run):
         values = run.statistics("Front 90 % (m)") / height
     samples = np.interp(np.array(TIMES) * math.sqrt(height / GRAVITY), run.time, values)
     return {"group": group(height, young, k) if k else math.nan, **{f"at {time}": value for time, value in zip(TIMES, samples)}}
-
-
-# Verdict --------------------------------------------------------------------------------------------------------------
 
 
 def values(row):
