@@ -157,6 +157,13 @@ def energy_gain(run, energy=None):
     return float(fall / scale) if np.isfinite(fall) else np.inf
 
 
+def mean_depth(places, volumes, low, high):
+    """Of a plane deposit from `low` to `high` (numbers or arrays), averaged, m; of points at these places, as if their volume were at the point."""
+    order = np.argsort(places)
+    places, below = places[order], np.cumsum(volumes.ravel()[order])
+    return (np.interp(high, places, below) - np.interp(low, places, below, left=0.)) / (high - low)
+
+
 def lost_energy(run):
     """Numerical dissipation over the fall of the potential energy, both from start to end."""
     potential = run.statistics("Potential energy (J)")

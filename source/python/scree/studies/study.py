@@ -118,7 +118,6 @@ class Run:
         self.exit_code = exit_code
         self.reference = None
         self._core_seconds = core_seconds
-        self._columns = None
 
     @property
     def ended(self):
@@ -135,12 +134,10 @@ class Run:
         files = (self.folder / "screen.txt", self.folder / "log.txt")
         return "\n".join(file.read_text(encoding="utf-8", errors="replace") for file in files if file.exists())
 
-    @property
+    @functools.cached_property
     def columns(self):
         """The file `statistics`, {"Time (s)": values, ...}: {} if the run broke before its first row."""
-        if self._columns is None:
-            self._columns = results.read_statistics(self.folder) if (self.folder / "statistics").exists() else {}
-        return self._columns
+        return results.read_statistics(self.folder) if (self.folder / "statistics").exists() else {}
 
     def statistics(self, name):
         """A column by its whole name; a KeyError lists the names if there is none. For one that not all runs have: `columns.get(name)`."""

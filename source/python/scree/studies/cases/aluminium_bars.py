@@ -5,6 +5,7 @@ import numpy as np
 
 from scree.pictures.tables import name_lines
 from scree.studies.charts import RunCurves
+from scree.studies.measures import mean_depth
 from scree.studies.study import Claim, Study, axis, product, reference_rows
 
 BAR = 1.5e-3  # m
@@ -22,10 +23,7 @@ def reference(line):
 
 def depth(points, x):
     """Of the deposit at some places, m."""
-    order = np.argsort(points.positions[:, 0])
-    places, volume = points.positions[order, 0], np.cumsum(points.arrays["volume"].ravel()[order])
-    low, high = np.maximum(x - WIDTH / 2, 0.), x + WIDTH / 2
-    return (np.interp(high, places, volume) - np.interp(low, places, volume, left=0.)) / (high - low)
+    return mean_depth(points.positions[:, 0], points.arrays["volume"], np.maximum(x - WIDTH / 2, 0.), x + WIDTH / 2)
 
 
 def failure_height(points, x, h):

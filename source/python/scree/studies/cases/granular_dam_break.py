@@ -7,6 +7,7 @@ import numpy as np
 
 from scree import closed_forms
 from scree.studies.charts import RunCurves
+from scree.studies.measures import mean_depth
 from scree.studies.study import Claim, Study, axis, product
 
 LAYER, SLOPE, ORIGIN = 0.2, math.radians(20), np.array([5, 3.35])  # m, -, m
@@ -24,9 +25,7 @@ def depth(run, time, x):
     """Over the layer's, at places along the plane, m."""
     points = run.points(time)
     along = (points.positions[:, :2] - ORIGIN) @ (math.cos(SLOPE), -math.sin(SLOPE))
-    order = np.argsort(along)
-    along, volume = along[order], np.cumsum(points.arrays["volume"].ravel()[order])
-    return np.diff(np.interp([x - LAYER / 4, x + LAYER / 4], along, volume), axis=0)[0] / (LAYER**2 / 2)
+    return mean_depth(along, points.arrays["volume"], x - LAYER / 4, x + LAYER / 4) / LAYER
 
 
 def measure(run):

@@ -7,7 +7,7 @@ import numpy as np
 
 from scree.pictures.tables import name_lines
 from scree.studies.charts import Curves
-from scree.studies.measures import grouped, lost_energy
+from scree.studies.measures import grouped, lost_energy, mean_depth
 from scree.studies.study import Claim, Study, Variant
 
 FIXED, FRICTION, LOW_PIC = "fixed", "friction", "friction, PIC rate 1/s"
@@ -39,10 +39,9 @@ def front(points, percent):
 
 def front_of_depth(points, depth, width=0.1):
     """Largest x around which the soil, averaged over `width`, is `depth` deep, m."""
-    order = np.argsort(points.positions[:, 0])
-    x, volume = points.positions[order, 0], np.cumsum(points.arrays["volume"][order])
-    centres = np.arange(width / 2, x[-1] + width, width / 20)
-    depths = (np.interp(centres + width / 2, x, volume) - np.interp(centres - width / 2, x, volume, left=0.)) / width
+    x = points.positions[:, 0]
+    centres = np.arange(width / 2, x.max() + width, width / 20)
+    depths = mean_depth(x, points.arrays["volume"], centres - width / 2, centres + width / 2)
     return centres[np.flatnonzero(depths >= depth)[-1]]
 
 
