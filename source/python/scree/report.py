@@ -218,6 +218,12 @@ def embedded(content):
     return f"data:image/{kind};base64," + base64.b64encode(content).decode("ascii")
 
 
+def figure(caption, content):
+    """A picture with its caption, from the content of its file."""
+    text = html.escape(caption)
+    return f'<figure><img alt="{text}" src="{embedded(content)}"><figcaption>{text}</figcaption></figure>'
+
+
 def _figures(run, commands, folder, charts):
     """The figures of a section. Charts of statistics that a command has drawn besides go to `charts`."""
     parts = []
@@ -228,13 +234,10 @@ def _figures(run, commands, folder, charts):
             parts.append(f'<p class="note">{html.escape(caption)}: not drawn. {html.escape(str(error))}</p>')
             continue
         for name, content in pictures.items():
-            is_chart = "statistics" in name
-            text = "Statistics" if is_chart else caption
-            figure = f'<figure><img alt="{html.escape(text)}" src="{embedded(content)}"><figcaption>{html.escape(text)}</figcaption></figure>'
-            if is_chart:
-                charts[:] = [figure]  # the same for each collection
+            if "statistics" in name:
+                charts[:] = [figure("Statistics", content)]  # the same for each collection
             else:
-                parts.append(figure)
+                parts.append(figure(caption, content))
     return "\n".join(parts)
 
 

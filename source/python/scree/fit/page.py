@@ -47,7 +47,7 @@ def text(problem, runs, solution):
                     [[f"[{number}]", *(f"{value:+.2f}" for value in row[:number])] + [""] * (len(row) - number)
                      for number, row in enumerate(solution.correlation, 1)]),
              _table(["test", "quantity", "values", "rms", "", "largest"],
-                    [[test.name, column.name, str(len(column.values)), f"{rms:.3g}", unit, f"{100 * _factor(column) * _worst(column, law):.3g}"]
+                    [[test.name, column.name, str(len(column.values)), f"{rms:.3g}", unit, f"{100 * (column.largest if column.is_strain else 1.) * np.max(np.abs(column.differences(law))):.3g}"]
                      for test, _, column, law in _pairs(problem, solution) for rms, unit in [column.rms(law)]]),
              "\n".join(f"FLAG  {flag}." for flag in solution.flags) or "No flags."]
     if runs.failures:
@@ -55,14 +55,6 @@ def text(problem, runs, solution):
         shown = ", ".join(f"{parameter.entry} = {value:.4g}" for parameter, value in zip(problem.parameters, values))
         parts.append(f"{len(runs.failures)} runs failed; the fit went on without them. The last one: test {name} with {shown}: {message}")
     return "\n\n".join(parts)
-
-
-def _factor(column):
-    return column.largest if column.is_strain else 1.
-
-
-def _worst(column, law):
-    return float(np.max(np.abs(column.differences(law))))
 
 
 def _table(head, rows):

@@ -105,10 +105,6 @@ def comparison(studies):
                     for quantity, unit, measured, computed in lines)]) if lines else []
 
 
-def _cost(core_seconds):
-    return f"{core_seconds:.0f} core-seconds" if core_seconds < 90 else f"{core_seconds / 60:.0f} core-minutes"
-
-
 def slug(title):
     """The anchor of a heading, as GitHub and MyST name it."""
     return re.sub(r"\s", "-", re.sub(r"[^\w\s-]", "", title.lower()))
@@ -125,6 +121,7 @@ def topic_of(name):
 def section_text(name, study, rows, claims):
     """What holds, chart, text, one table and what does not hold of a study."""
     seconds = sum(row["core-seconds"] for row in rows if math.isfinite(row.get("core-seconds", math.nan)))
+    cost = f"{seconds:.0f} core-seconds" if seconds < 90 else f"{seconds / 60:.0f} core-minutes"
     lines = [f"## {study.title}", ""]
     for text in results(study, rows, claims):
         lines += sentences(text, "- ", "  ")
@@ -134,7 +131,7 @@ def section_text(name, study, rows, claims):
     missed = misses(study, rows, claims)
     for label, text in missed:
         lines += ([""] if (label, text) == missed[0] else []) + sentences(f"**{label}** {text}", "- ", "  ")
-    lines += ["", *filled(f"Repeat: `build/scree-study {name}` ({len(rows)} runs, {_cost(seconds)}, `{study.base}`); numbers: [{name}.csv]({name}.csv).")]
+    lines += ["", *filled(f"Repeat: `build/scree-study {name}` ({len(rows)} runs, {cost}, `{study.base}`); numbers: [{name}.csv]({name}.csv).")]
     return "\n".join(lines) + "\n"
 
 

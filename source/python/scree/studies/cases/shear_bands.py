@@ -54,14 +54,10 @@ def group(rows, scene, with_length):
     return sorted((row for row in rows if row["scene"] == scene and (row["length"] > 0) == with_length), key=lambda row: -row["h"])
 
 
-def parting(values):
-    return max(values) / min(values) - 1
-
-
 def verdict(rows):
     own, averaged = group(rows, BIAXIAL, False), group(rows, BIAXIAL, True)
     fine = [row for row in averaged if row["h"] <= row["length"] / 2 * 1.0001]
-    loads = parting([row[LOAD] for row in fine])
+    loads = max(row[LOAD] for row in fine) / min(row[LOAD] for row in fine) - 1
     claims = [
         Claim(f"Biaxial test with the length: the loads at 1 % with cells of at most l/2 part by {100 * loads:.1f} %. Bound: 2 %.", loads <= 0.02, quick=False, worst=True),
         Claim(f"Without the length, the load falls from {own[0][LOAD]:.1f} to {own[-1][LOAD]:.1f} kPa from cells of {own[0]['h']:g} m to {own[-1]['h']:g} m.",
