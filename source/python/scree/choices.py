@@ -17,6 +17,7 @@ from scree.command import ROOT
 from scree.studies import run as studies
 from scree.studies.cases import regimes, run_out, run_out_limits, saturated_run_out_limits, strength_reduction
 from scree.studies.pages import table as lines_of
+from scree.studies.study import reference_rows
 from scree.studies.precision import DEFAULTS, LimitFit, at_finest, curve, ratio
 from scree.variants import read_entries
 
@@ -416,13 +417,8 @@ def cost():
 # Times of the cases --------------------------------------------------------------------------------------------------
 
 
-# Processor time of whole runs, s; with other programs on the machine.
-BY_HAND = {"quickstart": 30, "first_slope": 3, "griffiths_lane": 20, "griffiths_lane_water": 38, "phreatic": 6, "vertical_cut": 9, "biaxial": 2,
-           "gully_dry": 5400, "mountain_dry": 7, "mountain_saturated": 22, "mountain_outline": 5, "acheron": 31, "entrainment": 3, "debris_flow": 9,
-           "slope_jefferies_been": 6, "cut": 40, "graded_slope": 45, "quick_clay": 35, "mud": 32, "steady_dam": 4, "earth_dam": 1,
-           "capillary_fringe": 1, "green_ampt": 1, "rain": 17, "wet_cut": 8}
-# The same of a first part: processor time, s, and its length, s.
-PARTS_BY_HAND = {"slope_loose": (27.8, 3.19), "slope_loose_fine": (53.9, 0.8)}
+# {case: row} of runs by hand.
+BY_HAND = {row["case"]: row for row in reference_rows("times_by_hand")}
 
 
 def rounded(seconds):
@@ -438,11 +434,11 @@ def time_of(name, rows):
     entries = read_entries(path)
     if "Path" in entries:
         return None
-    if name in PARTS_BY_HAND:
-        seconds, simulated = PARTS_BY_HAND[name]
-        return f"~{rounded(seconds * float(entries['End time']) / simulated)} *"
-    if name in BY_HAND or name not in rows:
-        return f"{BY_HAND[name]} *" if name in BY_HAND else "-"
+    if by_hand := BY_HAND.get(name):
+        seconds, simulated = by_hand["seconds"], by_hand["simulated"]
+        return f"~{rounded(float(seconds) * float(entries['End time']) / float(simulated))} *" if simulated else f"{seconds} *"
+    if name not in rows:
+        return "-"
     row = rows[name]
     if row["whole"]:
         return rounded(row["core-seconds"])

@@ -17,13 +17,10 @@ COLUMN, SLOPE, SATURATED, PERMEABLE = "column", "slope", "saturated slope", "per
 FILES = {COLUMN: "columns/column", SLOPE: "slopes/slope", SATURATED: "slopes/slope_saturated", PERMEABLE: "slopes/slope_saturated"}
 BOXES = {COLUMN: (4.5, 1.5), SLOPE: (10., 2.5), SATURATED: (12., 2.5), PERMEABLE: (12., 2.5)}  # m
 TIMES = {COLUMN: {"dense": 1.5, "loose": 1.5}, SLOPE: {"dense": 3., "loose": 3.}, SATURATED: {"dense": 9., "loose": 5.}, PERMEABLE: {"dense": 6.}}  # s
-CELLS_PER_METRE = {(COLUMN, "dense", FIXED): (10, 14, 20, 28), (COLUMN, "loose", FIXED): (10, 14, 20, 28),
-                   (COLUMN, "dense", FRICTION): (10, 14, 20, 28), (COLUMN, "loose", FRICTION): (10, 14, 20, 28),
-                   (COLUMN, "dense", LOW_PIC): (10, 14, 20, 28), (COLUMN, "loose", LOW_PIC): (10, 14, 20, 28),
-                   (SLOPE, "dense", FRICTION): (10, 14, 20, 28), (SLOPE, "loose", FRICTION): (10, 14, 20),
-                   (SLOPE, "dense", LOW_PIC): (10, 14, 20, 28), (SLOPE, "loose", LOW_PIC): (10, 14, 20, 28),
-                   (SATURATED, "loose", FRICTION): (7, 10, 14, 20), (SATURATED, "dense", FRICTION): (7, 10, 14, 20),
-                   (PERMEABLE, "dense", FRICTION): (7, 10, 14, 20)}
+FOUR, WET = (10, 14, 20, 28), (7, 10, 14, 20)
+CELLS_PER_METRE = {**{(COLUMN, soil, treatment): FOUR for treatment in TREATMENTS for soil in ("dense", "loose")},
+                   (SLOPE, "dense", FRICTION): FOUR, (SLOPE, "loose", FRICTION): FOUR[:3], (SLOPE, "dense", LOW_PIC): FOUR, (SLOPE, "loose", LOW_PIC): FOUR,
+                   (SATURATED, "loose", FRICTION): WET, (SATURATED, "dense", FRICTION): WET, (PERMEABLE, "dense", FRICTION): WET}
 RECOMMENDED = {COLUMN: LOW_PIC, SLOPE: LOW_PIC, SATURATED: FRICTION, PERMEABLE: FRICTION}
 QUANTILES = (80, 90, 95, 99, 99.5)
 FRONT, TIP = "front 90 % (m)", "front 99 % (m)"

@@ -11,6 +11,7 @@ from scree.pictures.tables import name_lines
 from scree.studies.charts import Curves
 from scree.studies.measures import grouped, lost_energy
 from scree.studies.study import Claim, Study, Variant, reference_rows
+from scree.studies.study import transfer as entries_of
 
 GRAVITY = 9.81
 SIZES, SHORT_SIZES = (12, 16, 24, 32, 48), (12, 16, 24, 32)
@@ -19,8 +20,7 @@ REPOSE, TRIAXIAL = "direct shear or repose", "triaxial"
 WITH, WITHOUT = "mu(I)", "constant"
 SAND, BEADS = "sand", "beads"
 GRAINS = {SAND: (31, "Lube"), BEADS: (22, "Lajeunesse")}  # angle of repose, source of the law
-TRANSFERS = {"FLIP": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 1}, "AFLIP": {"Transfer/Method": "AFLIP", "Transfer/PIC rate": "auto"},
-             "TPIC": {"Transfer/Method": "TPIC", "Transfer/PIC rate": "auto"}}
+TRANSFERS = {"FLIP": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 1}, "AFLIP": entries_of("AFLIP"), "TPIC": entries_of("TPIC")}
 FRONT, TIP, MASS, HEIGHT = "front 0.02 L0", "front 99 %", "front 90 %", "height"
 WIDTH = 0.05  # L0
 DIAMETER = 0.011  # L0
