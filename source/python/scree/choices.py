@@ -66,9 +66,6 @@ def percent(value, sign=False):
     return f"{100 * value:{'+' if sign else ''}.{digits}f} %"
 
 
-# Deviations over H/h ---------------------------------------------------------------------------------------------------
-
-
 def start(scene, part):
     """The x below which this part of the mass lies at the start: columns of 1 m x 1 m, slopes of 2 m with a crest of 2 m and 45 degrees."""
     return part if scene == run_out.COLUMN else 4 - math.sqrt(2 * 6 * (1 - part))
@@ -183,9 +180,6 @@ def peak_factors():
 
 
 IMPULSE = max(abs(fine - coarse) for coarse, fine in impact_pairs("impulse"))  # its change
-
-
-# Tables ----------------------------------------------------------------------------------------------------------------
 
 
 def table(lines):
@@ -412,9 +406,6 @@ def cost():
     return (f"\nThe studies took {then['ns per point and step']:.0f} ns per point and time step for the dense slope.\n"
             f"The newer [times of the cases](../../prm/README.md) take {now['ns per point and step']:.0f} ns.\n"
             "Compare costs within the table only, and use `--advise` for a case of your own.\n\n")
-
-
-# Times of the cases --------------------------------------------------------------------------------------------------
 
 
 # {case: row} of runs by hand.

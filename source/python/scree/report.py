@@ -43,9 +43,6 @@ summary { cursor: pointer; } ul { padding-left: 1.2rem; }
 """
 
 
-# The log --------------------------------------------------------------------------------------------------------------
-
-
 class Log(NamedTuple):
     """What the log tells of a run: parts of its last start by their labels, such as "Checks", and warnings of all starts."""
     parts: dict
@@ -93,9 +90,6 @@ def identity(run, log):
         ("Command", (f"mpirun -np {n_ranks} " if n_ranks > 1 else "") + f"scree {case}"),
         *((label, log.parts.get(label, "")) for label in ("Model", "Mesh", "Memory", "Libraries")),
     ) if text]
-
-
-# Sections -------------------------------------------------------------------------------------------------------------
 
 
 def table(rows, head=()):
@@ -173,9 +167,6 @@ def files(run):
     return table(rows, ("file", "size (kB)"))
 
 
-# Pictures -------------------------------------------------------------------------------------------------------------
-
-
 def picture_commands(run, field, times):
     """[(caption, module, arguments)] of the pictures that there is something for."""
     run = pathlib.Path(run)
@@ -239,9 +230,6 @@ def _figures(run, commands, folder, charts):
             else:
                 parts.append(figure(caption, content))
     return "\n".join(parts)
-
-
-# The page -------------------------------------------------------------------------------------------------------------
 
 
 def description(file):

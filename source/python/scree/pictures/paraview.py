@@ -39,11 +39,9 @@ def write_ground(run, box, output):
         return False
     if ground is None:
         return False
-    rows, columns = ground.values.shape
-    x = ground.x - origin[0] + (np.arange(columns) + 0.5) * ground.width
-    y = ground.y - origin[1] + (rows - np.arange(rows) - 0.5) * ground.width
-    places = np.stack([*np.meshgrid(x, y), np.nan_to_num(ground.values, nan=box.lower[2])], axis=-1).reshape(-1, 3)
-    head = f"# vtk DataFile Version 3.0\nground\nASCII\nDATASET STRUCTURED_GRID\nDIMENSIONS {columns} {rows} 1\nPOINTS {len(places)} float"
+    x, y = terrain.places(ground)
+    places = np.stack([*np.meshgrid(x - origin[0], y - origin[1]), np.nan_to_num(ground.values, nan=box.lower[2])], axis=-1).reshape(-1, 3)
+    head = f"# vtk DataFile Version 3.0\nground\nASCII\nDATASET STRUCTURED_GRID\nDIMENSIONS {len(x)} {len(y)} 1\nPOINTS {len(places)} float"
     np.savetxt(output, places, "%.7g", header=head, comments="")
     return True
 
