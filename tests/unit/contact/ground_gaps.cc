@@ -58,13 +58,10 @@ void test(const std::string &ground_expression, const unsigned int n_facets)
 }
 
 
-void run()
-{
+const UnitTest registered("ground_gaps", [] {
   test<2>("0.8*y - 0.6*x - 0.05", 6);
   test<3>("0.7*z - 0.6*x - 0.38*y - 0.05", 29);
-}
-
-const UnitTest registered("ground_gaps", run);
+});
 } // namespace test_ground_gaps
 
 // Runs with mpirun=1,2.
