@@ -17,8 +17,8 @@ from scree.command import ROOT
 from scree.studies import run as studies
 from scree.studies.cases import regimes, run_out, run_out_limits, saturated_run_out_limits, strength_reduction
 from scree.studies.pages import table as lines_of
-from scree.studies.study import reference_rows
 from scree.studies.precision import DEFAULTS, LimitFit, at_finest, curve, ratio
+from scree.studies.study import reference_rows
 from scree.variants import read_entries
 
 CHOICES, DEFAULTS_PAGE = ROOT / "doc" / "choosing.md", ROOT / "doc" / "studies" / "defaults.md"
@@ -304,9 +304,9 @@ def transfer(scene, method, base):
     return max(map(mean, ("dissipation", "p oscillation", "stress oscillation")))
 
 
-def at_least(series, n=20):
+def at_least(series):
     """The worst value with H/h of 20 or more."""
-    return max(value for number, value in series.items() if number >= n)
+    return max(value for number, value in series.items() if number >= 20)
 
 
 FLIP, AFLIP = "FLIP, 1/s", "AFLIP, 5"

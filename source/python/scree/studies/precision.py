@@ -47,13 +47,13 @@ def failed(rows, method):
     return sorted(row["h"] for row in rows if row["method"] == method and not math.isfinite(row.get("error", math.nan)))
 
 
-def order(rows, method=DEFAULTS, column="error"):
+def order(rows, method=DEFAULTS):
     """Order of convergence in h between the coarsest and the finest mesh; nan with one mesh."""
-    found = curve(rows, method, column)
+    found = curve(rows, method)
     if len(found) < 2:
         return math.nan
     coarse, *_, fine = found
-    return math.log(found[coarse][column] / found[fine][column]) / math.log(coarse / fine)
+    return math.log(found[coarse]["error"] / found[fine]["error"]) / math.log(coarse / fine)
 
 
 class LimitFit:

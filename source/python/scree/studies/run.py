@@ -90,8 +90,7 @@ def make_run(study, variant, folder, arguments):
 
 def make_runs(name, study, arguments):
     """The runs of all variants, in their order, each with the reference's; with progress."""
-    variants = [variant._replace(entries={**variant.entries, **study.quick_entries}) if arguments.quick else variant
-                for variant in study.variants if not arguments.quick or study.quick(variant.labels)]
+    variants = [variant for variant in study.variants if not arguments.quick or study.quick(variant.labels)]
     reference = study.quick_reference if arguments.quick and study.quick_reference is not None else study.reference
     if reference is not None:
         variants.insert(0, Variant({"reference": "reference"}, reference))

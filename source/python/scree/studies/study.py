@@ -80,7 +80,7 @@ class Study:
     """`measure(run)` returns the columns of a run; `verdict(rows)` the claims, from the rows as the table holds them.
 
     entries: common to all variants. reference: entries of a run made first, `run.reference` in the measure; quick_reference: that of the
-    short version, if it is another one. quick(labels): whether a variant belongs to the short version, with quick_entries. needs_end: a run that failed has
+    short version, if it is another one. quick(labels): whether a variant belongs to the short version. needs_end: a run that failed has
     no measures. options: of the program, such as --safety. default: the labels of the .prm's defaults, marked in the chart; a stability map needs them, {} if it compares no options, as
     its headline is the share of these cells that are stable.
     environment(): variables that it is run with. after(run, program): what else is to be made in a run's folder, right after it.
@@ -99,7 +99,6 @@ class Study:
     reference: dict | None = None
     quick_reference: dict | None = None
     quick: Callable = lambda labels: True
-    quick_entries: dict = dataclasses.field(default_factory=dict)
     needs_end: bool = True
     default: dict | None = None
     options: tuple = ()

@@ -16,10 +16,10 @@ REFERENCE = 0.04  # m, cells of the reference
 FINEST = (DEFAULTS, "3 x 3 points", "TPIC", "PIC rate 5")  # run on a fourth mesh
 
 
-def lengths(run, gravity=9.81):
+def lengths(run):
     """Fronts of 90 and 99 % of the soil and the height of the centre of mass at the times of the rows, m."""
     mass = run.statistics("Mass (kg)") + run.columns.get("Water mass (kg)", 0.)  # the study of the saturated slope measures so, too
-    return np.array([run.statistics("Front 90 % (m)"), run.statistics("Front 99 % (m)"), run.statistics("Potential energy (J)") / (mass * gravity)])
+    return np.array([run.statistics("Front 90 % (m)"), run.statistics("Front 99 % (m)"), run.statistics("Potential energy (J)") / (mass * 9.81)])
 
 
 def errors(run, own, exact, since):
