@@ -26,7 +26,7 @@ bibtex_default_style = "plain"
 # Code in the pages is C++, shell, Python, cases of Scree (text) and nothing else.
 highlight_language = "text"
 # Texts that are parts of pages, data, and the former manual.
-exclude_patterns = ["parameters/intro", "studies/reference"]
+exclude_patterns = ["parameters/intro", "studies/intro", "studies/reference"]
 
 # Equations without a network: MathJax 2 of Debian's package libjs-mathjax becomes part of the site. Elsewhere Sphinx links to the newest.
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")

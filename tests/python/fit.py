@@ -64,9 +64,6 @@ def check_recovered(name, found, truth, sigmas=2):
     assert all(abs(distance) <= sigmas for distance in distances.values()), (name, found, distances)
 
 
-# Command line ---------------------------------------------------------------------------------------------------------
-
-
 def test_command_line():
     """Paths in a row, of which one fails; options at the wrong place."""
     for name in ("one", "two"):
@@ -78,9 +75,6 @@ def test_command_line():
                             (["--fit"], "the following arguments are required"), (["--fit", "no.toml"], "no.toml: No such file")):
         done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False)
         assert done.returncode == 1 and text in done.stderr and done.stderr.count("\n") == 1, done
-
-
-# Tables ---------------------------------------------------------------------------------------------------------------
 
 
 def test_tables():
@@ -116,9 +110,6 @@ def test_follow_up():
     smooth = np.convolve(white, np.ones(10) / 10, "valid")  # ten readings as one; the correlation of neighbours is 0.9
     np.testing.assert_allclose(solution.follow_up(smooth), 19, rtol=0.2)
     assert solution.follow_up(np.ones(10)) == 5
-
-
-# Round trips ----------------------------------------------------------------------------------------------------------
 
 
 def test_drained_softening():
@@ -182,9 +173,6 @@ def test_erksak():
     assert re.search("FLAG  AT A BOUND: .*Volumetric coupling N", told), told
 
 
-# Flags and failures ---------------------------------------------------------------------------------------------------
-
-
 def test_flags():
     """A bound short of the truth, two entries that act as one, one without influence; trials that the law refuses are survived."""
     section = synthetic("elastic", "drained triaxial", {"Material": "Mohr-Coulomb", "Mohr-Coulomb/Friction angle": 40}, 0.01,
@@ -200,9 +188,6 @@ def test_flags():
     told = fitted("pair.toml")[1]
     assert re.search("FLAG  CORRELATED: Mohr-Coulomb/Friction angle and Mohr-Coulomb/Cohesion, -(0.99|1.00)", told), told
     assert re.search(r"[1-9]\d* runs failed; the fit went on without them. The last one: test strong with .*Tension cut-off", told), told
-
-
-# Errors ---------------------------------------------------------------------------------------------------------------
 
 
 FIT = """[parameters]

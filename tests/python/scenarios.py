@@ -40,9 +40,6 @@ def of(kind, **numbers):
     return sampling.distribution_of({"distribution": kind, **numbers})
 
 
-# Sampling -------------------------------------------------------------------------------------------------------------
-
-
 def test_distributions():
     middles = (np.arange(1000) + 0.5) / 1000
     assert of("uniform", low=2, high=4).quantile(0.25) == 2.5
@@ -75,9 +72,6 @@ def test_designs():
     mixed = [of("uniform", low=0, high=1), of("list", values=["a", "b", "c"])]
     assert sampling.one_at_a_time(mixed, [0.1, 0.9]) == [[0.5, "a"], [0.1, "a"], [0.9, "a"], [0.5, "b"], [0.5, "c"]]
     assert sampling.grid(mixed, 2) == [[0.25, "a"], [0.25, "b"], [0.25, "c"], [0.75, "a"], [0.75, "b"], [0.75, "c"]]
-
-
-# Evaluation -----------------------------------------------------------------------------------------------------------
 
 
 def test_probability():
@@ -168,9 +162,6 @@ def test_maps():
     assert page._cell(5200012.34) == "5200012.34"  # pylint: disable=protected-access
 
 
-# Errors ---------------------------------------------------------------------------------------------------------------
-
-
 def test_errors():
     for before, after, text in (
             ("case.prm", "cases.prm", '^study.toml: entry "case" = cases.prm: there is no file cases.prm'),
@@ -197,9 +188,6 @@ def test_errors():
         assert before in SOBOL
         pathlib.Path("study.toml").write_text(SOBOL.replace(before, after, 1), encoding="utf-8")
         raises(text, study.read, "study.toml")
-
-
-# Runs -----------------------------------------------------------------------------------------------------------------
 
 
 def call(*arguments):

@@ -7,8 +7,6 @@ import sys
 from scree.studies import pages, run
 from scree.studies.study import Claim
 
-LONGEST_SENTENCE = 40  # words
-
 faults = []
 
 
@@ -34,10 +32,6 @@ for name in run.names_of_studies():
           pages.headline(module.STUDY, rows) is None or pages.all_stable(rows) or "**Not stable.**" in tail)
     check(f"{topic}.md does not say how many claims of {name} hold", re.search(rf"^\| \[{re.escape(module.STUDY.title)}\].* {pages.n_held(module.STUDY.verdict(rows))} \|$",
                                                                         page, re.MULTILINE))
-    parts = re.split(r"\n\s*\n|\n(?=- |\d+\. )", module.__doc__)
-    for sentence in (sentence for part in parts for sentence in pages.SENTENCES.split(" ".join(part.split()))):
-        words = len([word for word in sentence.split() if word[0].isalnum() or len(word) > 1])
-        check(f"{name}: a sentence of {words} words: {sentence[:60]}...", words <= LONGEST_SENTENCE)
 
 texts = run.page_texts()
 for file, text in texts.items():

@@ -18,9 +18,6 @@ NO_STRESS = {"Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto"}
 failures = []
 
 
-# Runs -----------------------------------------------------------------------------------------------------------------
-
-
 def run(scree, case, name, entries, may_stop=False):
     """Statistics of a variant of prm/`case`.prm, as {column: values}."""
     target = name + ".prm"
@@ -45,9 +42,6 @@ def nudged_gravity(nudge):
 
 def gravity_entry(vector):
     return ", ".join("%.15g" % component for component in vector)
-
-
-# Numbers of a run -----------------------------------------------------------------------------------------------------
 
 
 def at(table, column, time):
@@ -106,9 +100,6 @@ def ways(run_folder):
 
 def rms(values):
     return math.sqrt(np.mean(np.square(values)))
-
-
-# Bounds ---------------------------------------------------------------------------------------------------------------
 
 
 def check(what, value, lowest, highest, asked=None):

@@ -74,9 +74,6 @@ def largest_volume_error(run_folder, cells, cell_size, with_soil=True):
                for time in read_times(run_folder, "water"))
 
 
-# At rest --------------------------------------------------------------------------------------------------------------
-
-
 def hydrostatic(scree):
     """Water whose surface is 0 to 0.75 of a cell above a cell's face: p = rho g depth. The moments of the points are found in eight passes: to 1.3e-4, not to rounding."""
     cell = 0.1
@@ -108,9 +105,6 @@ def rest(scree):
         check(label + "speed after 1 s, m/s", speed(table), 0, 1e-6)
         check(label + "largest error of p over rho g h", error / (WATER * 0.05), 0, *((0.036, 0.015) if float(conductivity) < 1e-6 else (0.01,)))
         check_water(label + "water", table)
-
-
-# Consolidation --------------------------------------------------------------------------------------------------------
 
 
 def consolidation(scree, name, column, factors, entries, young_modulus=1e6, base="consolidation/terzaghi"):
@@ -224,9 +218,6 @@ def large_strain(scree):
                   math.sqrt(np.mean((stress - exact_stress)**2)) / pressure_scale, 0, 0.021, 0.02)
     check_balances("large strain", table)
     check_water("large strain", table)
-
-
-# Surface load ---------------------------------------------------------------------------------------------------------
 
 
 def top_cell(name, time, cells):
@@ -372,9 +363,6 @@ def cavitation(scree):
           max(abs(held[column][i] - free[column][i]) for column in held for i in same), 0, 0)
 
 
-# Free water -----------------------------------------------------------------------------------------------------------
-
-
 def still_water(scree):
     """The volume correction leaves water at rest alone, wherever its surface lies in a cell: to 1e-9 of its potential energy.
 
@@ -455,9 +443,6 @@ def dam_break(scree):
     for time in DAM_BREAK:
         check("dam break: front at T = %g, h = 0.025 m over h = 0.05 m (ours)" % time,
               fronts["0.025", time] / fronts["0.05", time], 0.97, 1.03)
-
-
-# Soil and water in motion ---------------------------------------------------------------------------------------------
 
 
 def saturated_slopes(scree):

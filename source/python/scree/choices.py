@@ -18,6 +18,7 @@ from scree.studies import run as studies
 from scree.studies.cases import regimes, run_out, run_out_limits, saturated_run_out_limits, strength_reduction
 from scree.studies.pages import table as lines_of
 from scree.studies.precision import DEFAULTS, LimitFit, at_finest, curve, ratio
+from scree.studies.study import reference_rows
 from scree.variants import read_entries
 
 CHOICES, DEFAULTS_PAGE = ROOT / "doc" / "choosing.md", ROOT / "doc" / "studies" / "defaults.md"
@@ -65,23 +66,21 @@ def percent(value, sign=False):
     return f"{100 * value:{'+' if sign else ''}.{digits}f} %"
 
 
-# Deviations over H/h ---------------------------------------------------------------------------------------------------
-
-
 def start(scene, part):
     """The x below which this part of the mass lies at the start: columns of 1 m x 1 m, slopes of 2 m with a crest of 2 m and 45 degrees."""
     return part if scene == run_out.COLUMN else 4 - math.sqrt(2 * 6 * (1 - part))
 
 
-def height(scene):
-    return 1 if scene == run_out.COLUMN else 2
+def deviations(group, name, start, number=lambda row: round(row["cells"])):
+    """{H/h: deviation of a front from its value at h = 0, over the displacement at h = 0} of the sizes of a curve."""
+    limit = run_out.Limit(group, name)
+    return {number(row): abs(row[name] - limit.value) / (limit.value - start) for row in group}
 
 
 def fronts(scene, soil, treatment):
-    """{H/h: deviation of the front of 90 % from its value at h = 0, over the displacement at h = 0}."""
+    """Those of the front of 90 %."""
     group = run_out.curves(rows("run_out"))[scene, soil, treatment]
-    limit = run_out.Limit(group)
-    return {round(height(scene) / row["h"]): abs(row[run_out.FRONT] / limit.value - 1) * limit.value / (limit.value - start(scene, 0.9)) for row in group}
+    return deviations(group, run_out.FRONT, start(scene, 0.9), lambda row: round((1 if scene == run_out.COLUMN else 2) / row["h"]))
 
 
 def worst(*series):
@@ -114,10 +113,6 @@ def at(series, *numbers):
     return ", ".join(f"{percent(series[n])} at {n}" for n in numbers)
 
 
-def in_one_list(series):
-    return ", ".join(percent(value).removesuffix(" %") for value in series.values()) + f" % at {', '.join(map(str, series))}"
-
-
 def span(values, sign=False):
     low, high = (percent(value, sign) for value in (min(values), max(values)))
     return low if low == high else f"{low.removesuffix(' %')} to {high}"
@@ -143,10 +138,9 @@ POND = {round(0.2 / h): max(abs(row["fall/exact"] - 1) for row in with_labels("w
 
 
 def wet_limits():
-    """{H/h: deviation} of the front of 90 % of a loose saturated slope on friction, TPIC, from its value at h = 0, over the displacement at h = 0."""
+    """Of the front of 90 % of a loose saturated slope on friction, TPIC."""
     group = saturated_run_out_limits.curves(rows("saturated_run_out_limits"))[saturated_run_out_limits.SLOPE, saturated_run_out_limits.FRICTION, "TPIC"]
-    limit = run_out.Limit(group, saturated_run_out_limits.MASS)
-    return {round(row["cells"]): abs(row[saturated_run_out_limits.MASS] - limit.value) / (limit.value - start(run_out.SLOPE, 0.9)) for row in group}
+    return deviations(group, saturated_run_out_limits.MASS, start(run_out.SLOPE, 0.9))
 
 
 def tip_change():
@@ -156,14 +150,9 @@ def tip_change():
 
 
 def columns_of_grains():
-    """{H/h: deviation of the front of 99 % of a column with inertial friction from its value at h = 0, over the displacement at h = 0}."""
+    """Of the front of 99 % of a column with inertial friction."""
     group = run_out_limits.curves(rows("run_out_limits"))[1., "FLIP", run_out_limits.WITH, run_out_limits.REPOSE, 3., run_out_limits.SAND]
-    limit = run_out.Limit(group, run_out_limits.TIP)
-    return {round(row["cells"]): abs(row[run_out_limits.TIP] - limit.value) / (limit.value - 0.99) for row in group}
-
-
-def grains_against_experiment():
-    return [float(row["deviation_percent"]) / 100 for row in benchmarks.read() if row["quantity"].startswith("run-out/L0, a = ")]
+    return deviations(group, run_out_limits.TIP, 0.99)
 
 
 def bars():
@@ -185,16 +174,12 @@ def impact_pairs(quantity):
     return [(row[quantity], fine[row["k"], row["v"]]) for row in default if row["h"] == 0.1]
 
 
-def impulse_change():
-    return max(abs(fine - coarse) for coarse, fine in impact_pairs("impulse"))
-
-
 def peak_factors():
     factors = [fine / coarse for coarse, fine in impact_pairs("peak p, kPa")]
     return min(factors), max(factors)
 
 
-# Tables ----------------------------------------------------------------------------------------------------------------
+IMPULSE = max(abs(fine - coarse) for coarse, fine in impact_pairs("impulse"))  # its change
 
 
 def table(lines):
@@ -213,7 +198,8 @@ def accuracies():
     def row(scene, points, series, cost, deviation, reference):
         return scene, points, reached(series, 0.1), reached(series, 0.05), cost, deviation, reference
 
-    none, low, high = {1: 1.}, *peak_factors()
+    none, (low, high) = {1: 1.}, peak_factors()
+    grains = [float(row["deviation_percent"]) / 100 for row in benchmarks.read() if row["quantity"].startswith("run-out/L0, a = ")]
     heap = "Fronts of undrained collapses deviate by -5.5 to +18.5 %"
     large = [float(quoted("verification/consolidation_and_seepage.md", "| the same, Kozeny-Carman | - | **1.096**; 1.037 |", "1.096")) - 1]
     mountain = "The cell size changes the reach by 20 m, the area by 3 % and the largest thickness of the deposit by 33 %"
@@ -235,7 +221,7 @@ def accuracies():
             f"{percent(one('saturated_slope', method=DEFAULTS, h=0.1)['error'])} at 20", "finer FLIP run"),
         row("[column of grains][grains], inertial", "3", columns_of_grains(), minutes("run_out_limits", 24, cells=24., a=1., friction=run_out_limits.WITH, points=3., transfer="FLIP"),
             at(columns_of_grains(), 12, 24), "limit of 5 sizes"),
-        row("[the same][grain_experiment], sand, beads", "3", none, "-", f"{span(grains_against_experiment(), True)} at h = 0", "experiment"),
+        row("[the same][grain_experiment], sand, beads", "3", none, "-", f"{span(grains, True)} at h = 0", "experiment"),
         row("[aluminium bars][bars], inertial", "4", none, minutes("aluminium_bars", 40, base="fixed, mu(I)", h=0.0025), f"{span(bars(), True)} at 10 to 40", "experiment"),
         ("[flow slide, undrained][fail]", "4", "not reliable", "not reliable", "-",
          f"{quoted('validation.md', heap, '-5.5')} % at 10, {quoted('validation.md', heap, '+18.5 %')} at 80", "total stress"),
@@ -244,9 +230,9 @@ def accuracies():
         row("[the same][limits_large], load 0.4 M", "4", {20: large[0]}, "-", f"{percent(large[0])} at 20", "finite differences"),
         row("[dam break][dam_break]", "4", DAM_BREAK, minutes("dam_break", 20, method=DEFAULTS, h=0.1), at(DAM_BREAK, 20, 60), "limit by fit"),
         row("[dam break][mm], front", "4", none, minutes("martin_moyce", 80, h=0.025), ", ".join(f"{percent(tips()[n], True)} at {n}" for n in (20, 80)), "experiment"),
-        row("[impact][impact], impulse", "3", {5: impulse_change()}, minutes("impact", 10, h=0.05), f"{percent(impulse_change())} from 5 to 10", "finer run"),
+        row("[impact][impact], impulse", "3", {5: IMPULSE}, minutes("impact", 10, h=0.05), f"{percent(IMPULSE)} from 5 to 10", "finer run"),
         row("[impact][impact], peak of p", "3", none, minutes("impact", 10, h=0.05), f"factor {low:.2g} to {high:.2g} from 5 to 10", "finer run"),
-        row("[infiltration][infil], pond of 0.2 m", "4", POND, minutes("wetting_front", 4, h=0.05, default=True), in_one_list(POND), "exact"),
+        row("[infiltration][infil], pond of 0.2 m", "4", POND, minutes("wetting_front", 4, h=0.05, default=True), ", ".join(percent(value).removesuffix(" %") for value in POND.values()) + f" % at {', '.join(map(str, POND))}", "exact"),
         ("[terrain][mountain], 10 and 5 m", "3", "not known", "not known", "-", f"deposit {quoted('tutorials/own_terrain.md', mountain, '33 %')} thicker",
          "finer run"),
         row("[elastic waves][bar], cells in the bar", "4", BAR, minutes("bar", 32, method="TPIC", h=0.03125), at(BAR, 16, 32), "exact")]
@@ -284,8 +270,8 @@ def points():
     def pond(n):
         return max(abs(row["fall/exact"] - 1) for row in rows("wetting_front") if row["points"] == f"{n} x {n}")
     return table([("quantity over that with 4 points", "3 points", "2 points", "time, 3 points"),
-                  ratios("[dry slope][dry]: front", SLOPE_ROWS()), ratios("the same: oscillation of the stress", SLOPE_ROWS(), "mean oscillation"),
-                  ratios("[saturated slope][wet]: front", rows("saturated_slope")), ratios("[dam break][dam_break]: front", DAM_ROWS()),
+                  ratios("[dry slope][dry]: front", SLOPE_ROWS), ratios("the same: oscillation of the stress", SLOPE_ROWS, "mean oscillation"),
+                  ratios("[saturated slope][wet]: front", rows("saturated_slope")), ratios("[dam break][dam_break]: front", DAM_ROWS),
                   ratios("[large strain][large]: settlement, p", rows("large_strain")),
                   ("[infiltration][infil]: worst deviation", "-", f"{pond(2) / pond(4):.2g}", "-")])
 
@@ -294,14 +280,14 @@ def word(value, limits):
     return "good" if value <= limits[0] else "limited" if value <= limits[1] else "fails"
 
 
-def deviation(method, value, what=""):
-    return f"{method}: {word(value, (GOOD, LIMITED))}, {percent(value)}{what}"
+def deviation(method, value):
+    return f"{method}: {word(value, (GOOD, LIMITED))}, {percent(value)}"
 
 
 def times(value):
     """A ratio to the recommended method."""
     value = float(f"{value:.2g}")
-    return f"{word(value, RATIOS)}, {value:.1f}" if value < 10 else f"{word(value, RATIOS)}, {value:.0f}"
+    return f"{word(value, RATIOS)}, {value:.{1 if value < 10 else 0}f}"
 
 
 def gain(value):
@@ -318,23 +304,22 @@ def transfer(scene, method, base):
     return max(map(mean, ("dissipation", "p oscillation", "stress oscillation")))
 
 
-def at_least(series, n=20):
+def at_least(series):
     """The worst value with H/h of 20 or more."""
-    return max(value for number, value in series.items() if number >= n)
+    return max(value for number, value in series.items() if number >= 20)
 
 
 FLIP, AFLIP = "FLIP, 1/s", "AFLIP, 5"
-SLOPE_ROWS = functools.lru_cache(lambda: LimitFit(rows("dry_slope"), 0.04).against_limit(rows("dry_slope")))
-DAM_ROWS = functools.lru_cache(lambda: LimitFit(rows("dam_break"), 1 / 60).against_limit(rows("dam_break")))
+SLOPE_ROWS, DAM_ROWS = (LimitFit(rows(study), h).against_limit(rows(study)) for study, h in (("dry_slope", 0.04), ("dam_break", 1 / 60)))
 
 
 def stable(study, **labels):
-    chosen = [row for row in rows(study) if all(row[name] == value for name, value in labels.items())]
+    chosen = with_labels(study, labels)
     return sum(row["state"] == "stable" for row in chosen), len(chosen)
 
 
 def methods():
-    slope, dam, wet = SLOPE_ROWS(), DAM_ROWS(), rows("saturated_slope")
+    slope, dam, wet = SLOPE_ROWS, DAM_ROWS, rows("saturated_slope")
     single_gain = max(row["energy gained"] for row in wet if row["method"] == "single-point")
     thrown, n_thrown = stable("single_point", points="double")
     low, n_low = stable("low_stress")
@@ -364,7 +349,7 @@ def methods():
          times(ratio(rows("bar"), "linear", other="TPIC")), times(ratio(rows("bar"), "2 x 2 points")), "-"),
         ("[points cross cells][mms]", deviation("TPIC", at_least(MANUFACTURED)), times(of_finest(DEFAULTS)), "=", "-", times(of_finest("linear")),
          times(of_finest("2 x 2 points")), "-"),
-        ("[impact, impulse][impact]", deviation("AFLIP", impulse_change()), "-", "-", "=", "-", "-", "-"),
+        ("[impact, impulse][impact]", deviation("AFLIP", IMPULSE), "-", "-", "=", "-", "-", "-"),
         ("[impact, peak of p][impact]", f"AFLIP: fails, factor {peak_factors()[1]:.0f}", "-", "-", "=", "-", "-", "-"),
         ("[soil thrown at a wall][thrown]", f"AFLIP: fails, {thrown} of {n_thrown} stable", "-", "-", "=", "-", "-",
          f"fails, mass x {max(row['error'] for row in rows('single_point') if row['points'] == 'single'):.1f}"),
@@ -376,7 +361,7 @@ def methods():
 
 def remarks():
     """What stands behind some cells of the table of methods."""
-    slope, wet, stress = SLOPE_ROWS(), rows("saturated_slope"), "mean oscillation"
+    slope, wet, stress = SLOPE_ROWS, rows("saturated_slope"), "mean oscillation"
     contours = max(row["energy gained over released to 0.4 s"] for row in rows("contours") if row["F-bar"] == "standard")
     water = one("point_sets", soil="dense", points="single", end=12.)["change of water mass"]
     peaks = [max(row["largest effective stress, kPa"] for row in wet if row["method"] == name) for name in ("FLIP, 3 x 3 points", DEFAULTS)]
@@ -423,16 +408,8 @@ def cost():
             "Compare costs within the table only, and use `--advise` for a case of your own.\n\n")
 
 
-# Times of the cases --------------------------------------------------------------------------------------------------
-
-
-# Processor time of whole runs, s; with other programs on the machine.
-BY_HAND = {"quickstart": 30, "first_slope": 3, "griffiths_lane": 20, "griffiths_lane_water": 38, "phreatic": 6, "vertical_cut": 9, "biaxial": 2,
-           "gully_dry": 5400, "mountain_dry": 7, "mountain_saturated": 22, "mountain_outline": 5, "acheron": 31, "entrainment": 3, "debris_flow": 9,
-           "slope_jefferies_been": 6, "cut": 40, "graded_slope": 45, "quick_clay": 35, "mud": 32, "steady_dam": 4, "earth_dam": 1,
-           "capillary_fringe": 1, "green_ampt": 1, "rain": 17, "wet_cut": 8}
-# The same of a first part: processor time, s, and its length, s.
-PARTS_BY_HAND = {"slope_loose": (27.8, 3.19), "slope_loose_fine": (53.9, 0.8)}
+# {case: row} of runs by hand.
+BY_HAND = {row["case"]: row for row in reference_rows("times_by_hand")}
 
 
 def rounded(seconds):
@@ -448,11 +425,11 @@ def time_of(name, rows):
     entries = read_entries(path)
     if "Path" in entries:
         return None
-    if name in PARTS_BY_HAND:
-        seconds, simulated = PARTS_BY_HAND[name]
-        return f"~{rounded(seconds * float(entries['End time']) / simulated)} *"
-    if name in BY_HAND or name not in rows:
-        return f"{BY_HAND[name]} *" if name in BY_HAND else "-"
+    if by_hand := BY_HAND.get(name):
+        seconds, simulated = by_hand["seconds"], by_hand["simulated"]
+        return f"~{rounded(float(seconds) * float(entries['End time']) / float(simulated))} *" if simulated else f"{seconds} *"
+    if name not in rows:
+        return "-"
     row = rows[name]
     if row["whole"]:
         return rounded(row["core-seconds"])

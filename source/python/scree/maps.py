@@ -53,9 +53,6 @@ TIME = re.compile(r"(?P<map>thickness|profile)_(?P<time>[-+.0-9e]+)s")
 HALO = [matplotlib.patheffects.withStroke(linewidth=2, foreground="white")]
 
 
-# Files ----------------------------------------------------------------------------------------------------------------
-
-
 def map_files(run):
     """{name: file} of the maps of a run folder, in 3D rasters and in 2D tables; empty without maps."""
     folder = pathlib.Path(run) / "maps"
@@ -97,9 +94,6 @@ def kind_of(name):
     match = TIME.fullmatch(name)
     key = match["map"] if match else name
     return KINDS.get(key, Kind(key.replace("_", " ").capitalize(), ""))
-
-
-# What a map shows -----------------------------------------------------------------------------------------------------
 
 
 class Map(NamedTuple):
@@ -156,9 +150,6 @@ def window_of(run, maps, source):
     half = np.maximum(half + 0.12 * half.max() + box.cell_size, 0.4 * half.max())  # not too slender a picture
     low, high = np.maximum(middle - half, lower), np.minimum(middle + half, upper)
     return low[0], high[0], low[1], high[1]
-
-
-# Drawing --------------------------------------------------------------------------------------------------------------
 
 
 def range_of(maps):

@@ -17,6 +17,7 @@ import numpy as np
 
 from scree.command import Command
 from scree.results import write_raster
+from scree.variants import set_entries
 
 
 class Size(NamedTuple):
@@ -89,76 +90,20 @@ def saturated_region(heights, thickness, spacing):
             f"((z - ({plane}))/{thickness.max():.4g})^2 < 1")
 
 
-WATER = """
-subsection Boundaries
-  subsection Water
-    set Left  = drained
-    set Right = drained
-    set Front = drained
-    set Back  = drained
-  end
-end
-
-subsection Water
-  set Points per cell        = 3
-  set Hydraulic conductivity = 1e-3                 # m/s
-end
-"""
+# Entries of a saturated slide besides.
+WATER = {**{f"Boundaries/Water/{face}": "drained" for face in ("Left", "Right", "Front", "Back")}, "Water/Points per cell": 3,
+         "Water/Hydraulic conductivity": "1e-3  # m/s"}
 
 
 def case_text(heights, thickness, spacing, cell, is_saturated=False):
-    """A slide to rest."""
+    """A slide to rest: the entries of mountain.prm with the numbers of this mountain."""
     release = f"set Region           = {saturated_region(heights, thickness, spacing)}" if is_saturated else "set Thickness        = release.asc"
     lower = [cell, cell, cell * np.floor(np.nanmin(heights) / cell - 1)]
     upper = [(n - 1) * spacing for n in heights.shape[::-1]] + [np.nanmax(heights + thickness) + 5 * cell]
     upper = [low + cell * np.floor((high - low - (cell if axis < 2 else 0)) / cell) for axis, (low, high) in enumerate(zip(lower, upper))]
-    corner = [", ".join(f"{value:g}" for value in place) for place in (lower, upper)]
-    walls = "\n".join(f"  set {face:6} = open" for face in ("Bottom", "Left", "Right", "Front", "Back"))
-    return f"""# A slide on a mountain side that scree-mountain has made.
-set Dimension        = 3
-set End time         = 60                           # s
-set Output directory = out
-set Gravity          = 0, 0, -9.81                  # m/s^2
-
-subsection Mesh
-  set Lower corner = {corner[0]}
-  set Upper corner = {corner[1]}
-  set Cell size    = {cell:g}
-end
-
-subsection Bed
-  set Type           = friction
-  set Friction angle = 20                           # degrees
-  set Raster         = terrain.asc
-end
-
-subsection Boundaries
-{walls}
-end
-
-subsection Soil
-  {release}
-  set Material         = Mohr-Coulomb
-  set Points per cell  = 3
-  set Grain density    = 2650                       # kg/m^3
-  set Initial porosity = 0.4
-  subsection Mohr-Coulomb
-    set Young's modulus = 1e7                       # Pa
-    set Poisson's ratio = 0.3
-    set Friction angle  = 32                        # degrees
-    set Dilation angle  = 0                         # degrees
-  end
-end
-
-subsection Output
-  set Interval            = 5                       # s
-  set Statistics interval = 0.2                     # s
-  subsection Maps
-    set Write           = true
-    set Least thickness = 0.1                       # m
-  end
-end
-""" + (WATER if is_saturated else "")
+    lower, upper = (", ".join(f"{value:g}" for value in place) for place in (lower, upper))
+    text = pathlib.Path(__file__).with_suffix(".prm").read_text(encoding="utf-8").format(release=release, lower=lower, upper=upper, cell=cell)
+    return set_entries(text, WATER if is_saturated else {}).rstrip("\n") + "\n"
 
 
 def make_case(folder, seed, size="large", spacing=10., cell=10., rim="thin", relief="rough", feature="none", missing="none",

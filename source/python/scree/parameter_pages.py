@@ -11,28 +11,10 @@ import textwrap
 
 from scree.command import ROOT, Command, program
 
-# Page, title and introducing line of the subsections, in the order of the index. Others get a page of their own name.
-PAGES = {
-    "": ("top_level", "Top level", "Entries outside of all subsections."),
-    "Mesh": ("mesh", "Mesh", "`subsection Mesh`"),
-    "Soil": ("bodies", "Bodies", "One subsection per body, with a name from the entry [Bodies](top_level.md#bodies); here `subsection Soil`."),
-    "Boundaries": ("boundaries", "Boundaries", "`subsection Boundaries`"),
-    "Bed": ("bed", "Bed", "`subsection Bed`"),
-    "Obstacle Wall": ("obstacle", "Obstacle", "`subsection Obstacle NAME`, for instance `subsection Obstacle Wall`; any number of them."),
-    "Inflow Torrent": ("inflow", "Inflow", "`subsection Inflow NAME`, for instance `subsection Inflow Torrent`; any number of them."),
-    "Rain": ("rain", "Rain", "`subsection Rain`"),
-    "Contact Base": ("contact", "Contact", "`subsection Contact NAME`, for instance `subsection Contact Base`; any number of them."),
-    "Base motion": ("base_motion", "Base motion", "`subsection Base motion`"),
-    "Surface load": ("surface_load", "Surface load", "`subsection Surface load`"),
-    "Water": ("water", "Water", "`subsection Water`"),
-    "Settling": ("settling", "Settling", "`subsection Settling`"),
-    "Safety": ("safety", "Safety", "`subsection Safety`"),
-    "Time step": ("time_step", "Time step", "`subsection Time step`"),
-    "Transfer": ("transfer", "Transfer", "`subsection Transfer`"),
-    "Stabilisation": ("stabilisation", "Stabilisation", "`subsection Stabilisation`"),
-    "Output": ("output", "Output", "`subsection Output`"),
-    "Probes": ("probes", "Probes", "`subsection Probes`"),
-}
+# Subsections in the order of the index, with their pages where these have another name. Others get a page of their own name.
+PAGES = {"": "top_level", "Mesh": None, "Soil": "bodies", "Boundaries": None, "Bed": None, "Obstacle Wall": "obstacle", "Inflow Torrent": "inflow", "Rain": None,
+         "Contact Base": "contact", "Base motion": None, "Surface load": None, "Water": None, "Settling": None, "Safety": None, "Time step": None,
+         "Transfer": None, "Stabilisation": None, "Output": None, "Probes": None}
 
 UNITS = {"m", "s", "m/s", "m/s^2", "1/s", "Pa", "Pa s", "kg/m^3", "degrees"}
 LARGEST = {"MAX_DOUBLE", "MAX_INT", "-MAX_DOUBLE", "-MAX_INT"}
@@ -140,14 +122,10 @@ def section_lines(node, path, title):
     return lines
 
 
-def introduction(folder, page):
+def introduction(folder, page, subsection=""):
+    """Head and first lines of a page."""
     file = folder / "intro" / f"{page}.md"
-    return [file.read_text(encoding="utf-8").strip(), ""] if file.is_file() else []
-
-
-def page_of(subsection):
-    slug = subsection.lower().replace(" ", "_")
-    return PAGES.get(subsection, (slug, subsection, f"`subsection {subsection}`"))
+    return file.read_text(encoding="utf-8").strip() if file.is_file() else f"# {subsection}\n\n`subsection {subsection}`"
 
 
 def pages(entries, folder):
@@ -157,12 +135,12 @@ def pages(entries, folder):
     subsections = {"": top, **{name: node for name, node in entries.items() if not is_entry(node)}}
     order = list(PAGES) + [name for name in subsections if name not in PAGES]
     for subsection in order:
-        page, title, line = page_of(subsection)
-        lines = [NOTE % f"intro/{page}.md", "", f"# {title}", "", line, ""]
-        lines += introduction(folder, page) + section_lines(subsections[subsection], subsection, "Entries")
+        page = PAGES.get(subsection) or subsection.lower().replace(" ", "_")
+        head = introduction(folder, page, subsection)
+        lines = [NOTE % f"intro/{page}.md", "", head, "", *section_lines(subsections[subsection], subsection, "Entries")]
         result[f"{page}.md"] = "\n".join(lines).rstrip() + "\n"
-        table.append((page, title))
-    lines = [NOTE % "intro/index.md", ""] + introduction(folder, "index") + ["## Pages", ""]
+        table.append((page, head.partition("\n")[0][2:]))
+    lines = [NOTE % "intro/index.md", "", introduction(folder, "index")] + ["", "## Pages", ""]
     lines += [f"- [{title}]({page}.md)" for page, title in table]
     lines += ["", "```{toctree}", ":hidden:", ""] + [page for page, _ in table] + ["```"]
     result["index.md"] = "\n".join(lines) + "\n"

@@ -36,11 +36,6 @@ def draw_probes(arguments):
         print(f"Wrote {output}")
 
 
-def fields_of(run, collection):
-    """The names of the arrays of a collection's last picture."""
-    return results.read_points(run, None, collection).arrays
-
-
 def _numbers(option, text, count=None):
     """The numbers of an option; None without it."""
     try:
@@ -58,7 +53,7 @@ def _collections(arguments):
     arguments.field = results.bare_name(arguments.field) if arguments.field else arguments.field
     if not arguments.field:
         return {name: DEFAULT_FIELDS[name] for name in wanted or ["points"]}
-    available = {name: fields_of(arguments.run, name) for name in wanted or ["points"]}
+    available = {name: results.read_points(arguments.run, None, name).arrays for name in wanted or ["points"]}
     chosen = {name: arguments.field for name, fields in available.items() if arguments.field in fields}
     if not chosen:
         remedy = ' It is written with "Displacement = true" in subsection Probes.' if arguments.field == "displacement" else ""

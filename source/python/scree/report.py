@@ -43,9 +43,6 @@ summary { cursor: pointer; } ul { padding-left: 1.2rem; }
 """
 
 
-# The log --------------------------------------------------------------------------------------------------------------
-
-
 class Log(NamedTuple):
     """What the log tells of a run: parts of its last start by their labels, such as "Checks", and warnings of all starts."""
     parts: dict
@@ -93,9 +90,6 @@ def identity(run, log):
         ("Command", (f"mpirun -np {n_ranks} " if n_ranks > 1 else "") + f"scree {case}"),
         *((label, log.parts.get(label, "")) for label in ("Model", "Mesh", "Memory", "Libraries")),
     ) if text]
-
-
-# Sections -------------------------------------------------------------------------------------------------------------
 
 
 def table(rows, head=()):
@@ -173,9 +167,6 @@ def files(run):
     return table(rows, ("file", "size (kB)"))
 
 
-# Pictures -------------------------------------------------------------------------------------------------------------
-
-
 def picture_commands(run, field, times):
     """[(caption, module, arguments)] of the pictures that there is something for."""
     run = pathlib.Path(run)
@@ -218,6 +209,12 @@ def embedded(content):
     return f"data:image/{kind};base64," + base64.b64encode(content).decode("ascii")
 
 
+def figure(caption, content):
+    """A picture with its caption, from the content of its file."""
+    text = html.escape(caption)
+    return f'<figure><img alt="{text}" src="{embedded(content)}"><figcaption>{text}</figcaption></figure>'
+
+
 def _figures(run, commands, folder, charts):
     """The figures of a section. Charts of statistics that a command has drawn besides go to `charts`."""
     parts = []
@@ -228,17 +225,11 @@ def _figures(run, commands, folder, charts):
             parts.append(f'<p class="note">{html.escape(caption)}: not drawn. {html.escape(str(error))}</p>')
             continue
         for name, content in pictures.items():
-            is_chart = "statistics" in name
-            text = "Statistics" if is_chart else caption
-            figure = f'<figure><img alt="{html.escape(text)}" src="{embedded(content)}"><figcaption>{html.escape(text)}</figcaption></figure>'
-            if is_chart:
-                charts[:] = [figure]  # the same for each collection
+            if "statistics" in name:
+                charts[:] = [figure("Statistics", content)]  # the same for each collection
             else:
-                parts.append(figure)
+                parts.append(figure(caption, content))
     return "\n".join(parts)
-
-
-# The page -------------------------------------------------------------------------------------------------------------
 
 
 def description(file):

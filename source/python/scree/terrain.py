@@ -66,6 +66,15 @@ def places(raster):
     return raster.x + (np.arange(columns) + 0.5) * raster.width, raster.y + (rows - np.arange(rows) - 0.5) * raster.width
 
 
+def value_at(raster, x, y):
+    """Values of the cells in which places are; nan outside."""
+    rows, columns = raster.values.shape
+    column = np.floor((np.asarray(x) - raster.x) / raster.width).astype(int)
+    row = rows - 1 - np.floor((np.asarray(y) - raster.y) / raster.width).astype(int)
+    is_inside = (column >= 0) & (column < columns) & (row >= 0) & (row < rows)
+    return np.where(is_inside, raster.values[np.clip(row, 0, rows - 1), np.clip(column, 0, columns - 1)], np.nan)
+
+
 def contour_step(raster, count=12):
     """Height between contours, m, of which there are about `count`: 1, 2 or 5 times a power of ten."""
     least, largest = np.nanmin(raster.values), np.nanmax(raster.values)
@@ -89,11 +98,7 @@ def draw_shade(axes, ground, strength, zorder, soil=None):
     image[..., 3] = np.round(60 * dark) / 60  # Steps that nobody sees make a small file.
     if soil is not None:
         x, y = places(Raster(dark, ground.x, ground.y, ground.width * ground.values.shape[1] / dark.shape[1]))
-        column, row = (np.floor((place - start) / soil.width).astype(int) for place, start in ((x, soil.x), (y, soil.y)))
-        row = soil.values.shape[0] - 1 - row
-        is_inside = np.outer((row >= 0) & (row < soil.values.shape[0]), (column >= 0) & (column < soil.values.shape[1]))
-        has_soil = np.isfinite(soil.values[np.clip(row, 0, soil.values.shape[0] - 1)][:, np.clip(column, 0, soil.values.shape[1] - 1)])
-        image[~(is_inside & has_soil), 3] = 0.
+        image[np.isnan(value_at(soil, *np.meshgrid(x, y))), 3] = 0.
     axes.imshow(image, extent=ground.extent, interpolation="nearest", zorder=zorder)
 
 

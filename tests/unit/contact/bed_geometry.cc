@@ -237,8 +237,7 @@ void test_batches()
 }
 
 
-void run()
-{
+const UnitTest registered("bed_geometry", [] {
   test_profile();
   test_raster();
   test_expression();
@@ -248,7 +247,5 @@ void run()
   test_moved_samples<3>();
   test_batches<2>();
   test_batches<3>();
-}
-
-const UnitTest registered("bed_geometry", run);
+});
 } // namespace test_bed_geometry

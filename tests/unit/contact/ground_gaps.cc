@@ -5,21 +5,24 @@
 // point a cell's width counts.
 #include "../test.h"
 
-#include "../scattered_mixture.h"
-
 #include <scree/boundary/ground_gaps.h>
+#include <scree/geometry/bed_parameters.h>
+#include <scree/mesh/cut_cells.h>
 
 namespace test_ground_gaps
 {
 template <int dim>
 void test(const std::string &ground_expression, const unsigned int n_facets)
 {
-  const ScatteredMixture<dim> mixture(ground_expression);
-  const BackgroundGrid<dim> &grid = mixture.grid;
-  const auto &facets              = mixture.cut_cells.segments();
+  const BackgroundGrid<dim> grid(grid_box<dim>(0., 1., 0.25), MPI_COMM_WORLD);
+  const ExpressionSurface<dim> surface("", ground_expression, grid.cell_size());
+  const DiscreteLevelSet<dim> samples(grid, surface);
+  const RigidBoundary<dim> ground({ { &samples } });
+  const CutCells<dim> cut_cells(grid, ground);
+  const auto &facets   = cut_cells.segments();
   const double gravity = 10., h = grid.cell_size(), spacing = 0.2 * h, time_step = 1e-3;
   const double slow = std::sqrt(2. * 0.125 * gravity * h); // after a fall through an eighth of a cell
-  GroundGaps<dim> gaps(grid, &mixture.cut_cells, gravity);
+  GroundGaps<dim> gaps(grid, &cut_cells, gravity);
 
   gaps.clear();
   for (unsigned int f = 0; f < facets.size(); ++f)
@@ -58,13 +61,10 @@ void test(const std::string &ground_expression, const unsigned int n_facets)
 }
 
 
-void run()
-{
+const UnitTest registered("ground_gaps", [] {
   test<2>("0.8*y - 0.6*x - 0.05", 6);
   test<3>("0.7*z - 0.6*x - 0.38*y - 0.05", 29);
-}
-
-const UnitTest registered("ground_gaps", run);
+});
 } // namespace test_ground_gaps
 
 // Runs with mpirun=1,2.

@@ -53,8 +53,7 @@ void random_pairs()
 }
 
 
-void run()
-{
+const UnitTest registered("node_contact", [] {
   random_pairs<2>();
   random_pairs<3>();
 
@@ -69,7 +68,5 @@ void run()
   compare(contact_impulse(ground, block, up, 1.5, 2.), up - 2. * right, "the same with a gap");
   compare(contact_impulse({ 1., right }, { 1., -1. * right }, right, 0., 0.3), right, "head on");
   compare(contact_impulse(ground, { 0., block.velocity }, up, 0., 2.), Tensor<1, 2>(), "two that nothing moves");
-}
-
-const UnitTest registered("node_contact", run);
+});
 } // namespace test_node_contact

@@ -85,8 +85,7 @@ void read_marked_values()
 }
 
 
-void run()
-{
+const UnitTest registered_test("raster_files", [] {
   const std::string system = R"(PROJCS["CH1903+_LV95",GEOGCS["GCS_CH1903+",DATUM["D_CH1903+",)"
                              R"(SPHEROID["Bessel_1841",6377397.155,299.1528128]],PRIMEM["Greenwich",0.0],)"
                              R"(UNIT["Degree",0.0174532925199433]],)"
@@ -115,7 +114,5 @@ void run()
           "systems under their names and codes");
   require(name_of_system(system) == "CH1903+_LV95" && name_of_system("EPSG:2056") == "EPSG:2056", "names of systems");
   read_marked_values();
-}
-
-const UnitTest registered_test("raster_files", run);
+});
 } // namespace test_raster_files

@@ -94,8 +94,7 @@ struct Box
   BodyForces<2> forcing;
 };
 
-void run()
-{
+const UnitTest registered("wall_gaps", [] {
   constexpr double h = Box::h, dt = 1e-3, fall = 10. * dt;
   const Tensor<1, 2> rest;
   const unsigned int n_all = 36; // nodes on walls
@@ -205,9 +204,7 @@ void run()
   test_hold("on the bottom, upwards", { middle, 0.1 * least }, { middle, least }, rises, none);
   test_hold("far below the bottom", { middle, -far_out }, { middle, -far_out }, falls, none);
   test_hold("above the bottom", { middle, 1.01 * least }, { middle, 1.01 * least }, falls, none);
-}
-
-const UnitTest registered("wall_gaps", run);
+});
 } // namespace test_wall_gaps
 
 // Runs with mpirun=1,2.

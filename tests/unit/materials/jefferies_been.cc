@@ -268,8 +268,7 @@ double cyclic_void_ratio(const JefferiesBeenParameters &parameters, const double
 }
 
 
-void run()
-{
+const UnitTest registered("jefferies_been", [] {
   RandomNumbers random;
   for (const double exponent : { 0., 0.5, 0.9 })
     test_energy(exponent, random);
@@ -292,7 +291,5 @@ void run()
   test_drained_peak(0.65, 100e3);
   compare("cyclic shear, void ratio from 0.79", cyclic_void_ratio(erksak(0.79), 100e3), 0.750, 0.004);
   compare("cyclic shear, void ratio from 0.65", cyclic_void_ratio(erksak(0.65), 100e3), 0.709, 0.004);
-}
-
-const UnitTest registered("jefferies_been", run);
+});
 } // namespace test_jefferies_been

@@ -171,8 +171,7 @@ void test_motions(const std::string &law)
 }
 
 
-void run()
-{
+const UnitTest registered("kinematics", [] {
   RandomNumbers random;
   test_principal_values<2>(random);
   test_principal_values<3>(random);
@@ -205,7 +204,5 @@ void run()
       expect_refusal([&] { PointOfMaterial<2>(law, -1e4, -1e2); }, "K0", law + " with a small K0");
     }
   expect_refusal([] { PointOfMaterial<2>("Mohr-Coulomb", -1e4, -3e3); }, "K0", "Mohr-Coulomb with a small K0");
-}
-
-const UnitTest registered("kinematics", run);
+});
 } // namespace test_kinematics

@@ -328,11 +328,8 @@ void test_all()
 }
 
 
-void run()
-{
+const UnitTest registered("material_batches", [] {
   test_all<2>();
   test_all<3>();
-}
-
-const UnitTest registered("material_batches", run);
+});
 } // namespace test_material_batches

@@ -369,8 +369,7 @@ void test_inertial_friction()
 }
 
 
-void run()
-{
+const UnitTest registered("mohr_coulomb", [] {
   RandomNumbers random;
   MohrCoulombParameters soil;
   test_random("phi 30, psi 0", soil, random);
@@ -410,7 +409,5 @@ void run()
   expect(coarse, 0, 6e-3, "error of tau in 1000 steps");
   expect(coarse / fine, 4, 0.2, "gain of four times as many steps"); // first order
   test_inertial_friction();
-}
-
-const UnitTest registered("mohr_coulomb", run);
+});
 } // namespace test_mohr_coulomb

@@ -109,8 +109,7 @@ void test_gap()
 }
 
 
-void run()
-{
+const UnitTest registered("nor_sand", [] {
   const Range common  = { 3000000, 1e-6, 1e-1, 1e1, 1e6 };
   const Range extreme = { 200000, 1e-3, 10, 1e-10, 1e10 };
   RandomNumbers random;
@@ -124,7 +123,5 @@ void run()
   parameters.potential_constant = parameters.yield_constant = 0;
   test_returns("Cam-Clay N = 0, extreme", parameters, extreme, random);
   test_gap();
-}
-
-const UnitTest registered("nor_sand", run);
+});
 } // namespace test_nor_sand

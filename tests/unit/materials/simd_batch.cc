@@ -164,8 +164,7 @@ void test_pairs(RandomNumbers &random)
 }
 
 
-void run()
-{
+const UnitTest registered("simd_batch", [] {
   RandomNumbers random;
   std::vector<double> exponents, positive, ratios;
   for (unsigned int i = 0; i < 200000; ++i)
@@ -206,7 +205,5 @@ void run()
   test_records<12>(random);
   test_masks();
   test_pairs(random);
-}
-
-const UnitTest registered("simd_batch", run);
+});
 } // namespace test_simd_batch

@@ -179,8 +179,7 @@ void test_place()
 }
 
 
-void run()
-{
+const UnitTest registered("tresca", [] {
   RandomNumbers random;
   TrescaParameters with_cut_off = fast_clay();
   with_cut_off.tension_cut_off  = 2e3;
@@ -193,7 +192,5 @@ void run()
   test_shear();
   test_rates();
   test_place();
-}
-
-const UnitTest registered("tresca", run);
+});
 } // namespace test_tresca

@@ -231,15 +231,12 @@ void test_seeds()
 }
 
 
-void run()
-{
+const UnitTest registered("bed_cells", [] {
   test_planes<2>();
   test_planes<3>();
   test_ball<2>();
   test_ball<3>();
   test_seeds<2>();
   test_seeds<3>();
-}
-
-const UnitTest registered("bed_cells", run);
+});
 } // namespace test_bed_cells

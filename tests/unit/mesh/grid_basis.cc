@@ -134,8 +134,7 @@ void test(const std::string &basis, const std::array<unsigned int, dim> &cells)
 }
 
 
-void run()
-{
+const UnitTest registered("grid_basis", [] {
   for (const auto &cells : { std::array<unsigned int, 2>{ { 8, 4 } }, { { 7, 3 } }, { { 6, 10 } }, { { 5, 1 } } })
     {
       test<2, 3>("spline", cells);
@@ -146,9 +145,7 @@ void run()
       test<3, 3>("spline", cells);
       test<3, 2>("linear", cells);
     }
-}
-
-const UnitTest registered("grid_basis", run);
+});
 } // namespace test_grid_basis
 
 // Runs with mpirun=1,2.

@@ -99,15 +99,12 @@ void test(const double size, const Counts &inside, const Counts &at_far_corner)
     }
 }
 
-void run()
-{
+const UnitTest registered("grid_fine_cells", [] {
   for (const double size : { 18.875, 37.625 })
     test<2>(size, { 149, 59, 52, 296, 19 }, { 113, 32, 41, 221, 40 });
   for (const double size : { 4.125, 8.875 })
     test<3>(size, { 1343, 897, 280, 3744, 271 }, { 855, 386, 189, 2331, 602 });
-}
-
-const UnitTest registered("grid_fine_cells", run);
+});
 } // namespace test_grid_fine_cells
 
 // Runs with mpirun=1,2.

@@ -62,16 +62,13 @@ void test(const std::string &name, const std::string &expression, const int n_ce
   require(close < 0.02 * box.n_cells(), what + "too many close looks");
 }
 
-void run()
-{
+const UnitTest registered("grid_occupied_blocks", [] {
   const std::string tail = " || (x > 12 && x < 38 && abs(y-12.1) < 0.13";
   test<2>("ball with a tail", "(x-12)^2 + (y-12)^2 < 16" + tail + ")", 1500, 38);
   test<2>("layer", "y > 7.3 && y < 7.6 && x < 36", 1500, 18);
   test<3>("ball with a tail", "(x-12)^2 + (y-12)^2 + (z-12)^2 < 16" + tail + " && abs(z-12.1) < 0.13)", 150, 108);
   test<3>("layer", "z > 7.3 && z < 7.6 && x < 36 && y < 30", 150, 270);
-}
-
-const UnitTest registered("grid_occupied_blocks", run);
+});
 } // namespace test_grid_occupied_blocks
 
 // Runs with mpirun=1,2.

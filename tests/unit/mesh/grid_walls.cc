@@ -150,14 +150,11 @@ void test_constraints()
 }
 
 
-void run()
-{
+const UnitTest registered("grid_walls", [] {
   test_nodes();
   test_water();
   test_constraints();
-}
-
-const UnitTest registered("grid_walls", run);
+});
 } // namespace test_grid_walls
 
 // Runs with mpirun=1,2.

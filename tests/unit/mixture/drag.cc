@@ -129,8 +129,7 @@ void solve_pairs()
   compare({ 2., 1., 3., wall, no_wall }, r, 0., -0.25); // soil fixed along x
 }
 
-void run()
-{
+const UnitTest registered("drag", [] {
   for (const double n : { 0.3, 0.4, 0.9 })
     compare_with_ergun(n);
 
@@ -143,7 +142,5 @@ void run()
   expect(DragLaw(water, 0.4).conductivity(0.5), 5.625e-2, 1e-15, "Kozeny-Carman, looser");
   solve_steps();
   solve_pairs();
-}
-
-const UnitTest registered("drag", run);
+});
 } // namespace test_drag

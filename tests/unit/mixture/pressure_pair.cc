@@ -324,15 +324,12 @@ void test(const std::string &basis, const double volume, const std::vector<doubl
 }
 
 
-void run()
-{
+const UnitTest registered("pressure_pair", [] {
   test<2>("spline", 0.262347, { 0.000816676, 0.00108511 });
   test<3>("spline", 0.157837, { 2.87803e-05, 0.00290011 });
   test<2>("linear", 0.262347, { 0.000629316, 0.00156758 });
   test<3>("linear", 0.157837, { 3.45843e-05, 0.00773974 });
-}
-
-const UnitTest registered("pressure_pair", run);
+});
 } // namespace test_pressure_pair
 
 // Runs with mpirun=1,2.

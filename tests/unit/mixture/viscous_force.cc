@@ -172,16 +172,13 @@ void test(const std::string &basis)
 }
 
 
-void run()
-{
+const UnitTest registered("viscous_force", [] {
   for (const std::string basis : { "spline", "linear" })
     {
       test<2>(basis);
       test<3>(basis);
     }
-}
-
-const UnitTest registered("viscous_force", run);
+});
 } // namespace test_viscous_force
 
 // Runs with mpirun=1,2.

@@ -354,8 +354,7 @@ std::vector<double> test_return(const std::string &folder)
 }
 
 
-void run()
-{
+const UnitTest registered("checkpoint_faults", [] {
   test_return<3>("run_3d");
   const std::vector<double> sums = test_return<2>("run_2d");
 
@@ -369,9 +368,7 @@ void run()
   test_files(sums);
   test_folders(sums);
   test_full_disk(sums);
-}
-
-const UnitTest registered("checkpoint_faults", run);
+});
 } // namespace test_checkpoint_faults
 
 // Runs with mpirun=1,2.

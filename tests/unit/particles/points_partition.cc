@@ -71,13 +71,10 @@ void test()
 }
 
 
-void run()
-{
+const UnitTest registered("points_partition", [] {
   test<2>();
   test<3>();
-}
-
-const UnitTest registered("points_partition", run);
+});
 } // namespace test_points_partition
 
 // Runs with mpirun=2.

@@ -176,13 +176,10 @@ void test()
           "No cell of one point, or none that emptied");
 }
 
-void run()
-{
+const UnitTest registered("points_sort", [] {
   test<2>();
   test<3>();
-}
-
-const UnitTest registered("points_sort", run);
+});
 } // namespace test_points_sort
 
 // Runs with mpirun=1,2,3.

@@ -156,8 +156,7 @@ void test_unit_weights()
 }
 
 
-void run()
-{
+const UnitTest registered("seeding", [] {
   const double pi = numbers::PI;
 
   // Faces of cells: nothing to sample.
@@ -205,9 +204,7 @@ void run()
   test_water<2>({ 1, 1 }, "y > 0.5", { { "Block", "y < 0.5", 0, 2000 } }, 0.5, 800, 1e-12);
 
   test_unit_weights();
-}
-
-const UnitTest registered("seeding", run);
+});
 } // namespace test_seeding
 
 // Runs with mpirun=1,2.

@@ -88,8 +88,7 @@ void test(const Scene<dim> &scene)
 }
 
 
-void run()
-{
+const UnitTest registered("stress_at_start", [] {
   const double n = 0.4, water = g * water_density, dry = g * grain_density * (1 - n);
   const double lift = g * water_density * (1 - n), buoyant = dry - lift; // unit weights, N/m^3
   const double light = g * grain_density * 0.2;                          // of a porosity of 0.8
@@ -144,9 +143,7 @@ void run()
             Tensor<1, 3>({ 0, 0, -g }),
             [&](const auto &x) { return water * (0.9 - x[2]); },
             [&](const auto &x) { return buoyant * (0.3 + 0.4 * x[0] - x[2]); } });
-}
-
-const UnitTest registered("stress_at_start", run);
+});
 } // namespace test_stress_at_start
 
 // Runs with mpirun=1,2.

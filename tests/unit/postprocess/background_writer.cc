@@ -47,8 +47,7 @@ FileJob job(Record &record, const std::string &name)
   return job;
 }
 
-void run()
-{
+const UnitTest registered_test("background_writer", [] {
   const auto ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   Record record;
   std::promise<void> disk;
@@ -83,9 +82,7 @@ void run()
     writer.start(job(record, "waiting"));
   }
   record.compare(ranks > 1 ? "last: pieces\n" : "last: pieces\nlast: record\nwaiting: pieces\nwaiting: record\n");
-}
-
-const UnitTest registered_test("background_writer", run);
+});
 } // namespace test_background_writer
 
 // Runs with mpirun=1,2.

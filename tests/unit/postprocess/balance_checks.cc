@@ -66,8 +66,7 @@ void check_scaled_masses()
 
 
 /// A block of 160 kg, at rest, that a load of 100 J sets in motion, 80 J, and walls stop again.
-void run()
-{
+const UnitTest balance_checks_test("balance_checks", [] {
   Watched watched;
   auto &[scene, forces, checks, statistics] = watched;
   std::cout << "nothing known: " << checks.results().size() << " results\n";
@@ -110,9 +109,7 @@ void run()
                          { "third check of a long name 3", "2", false, "" },
                          { "fourth check of a long name 4", "3", false, "" } })
             << '\n';
-}
-
-const UnitTest balance_checks_test("balance_checks", run);
+});
 } // namespace test_balance_checks
 
 

@@ -220,13 +220,10 @@ void test()
 }
 
 
-void run()
-{
+const UnitTest registered("output_measures", [] {
   test<2>();
   test<3>();
-}
-
-const UnitTest registered("output_measures", run);
+});
 } // namespace test_output_measures
 
 // Runs with mpirun=1,2.

@@ -150,8 +150,7 @@ void test_ids()
 }
 
 
-void run()
-{
+const UnitTest registered("output_probes", [] {
   test_places<2>();
   test_places<3>();
   test_columns<2>();
@@ -159,9 +158,7 @@ void run()
   test_wedge();
   test_ids<2>();
   test_ids<3>();
-}
-
-const UnitTest registered("output_probes", run);
+});
 } // namespace test_output_probes
 
 // Runs with mpirun=1,2.

@@ -216,13 +216,10 @@ void test()
 }
 
 
-void run()
-{
+const UnitTest registered("output_water", [] {
   test<2>();
   test<3>();
-}
-
-const UnitTest registered("output_water", run);
+});
 } // namespace test_output_water
 
 // Runs with mpirun=1,2.

@@ -75,14 +75,11 @@ void print_labels()
 }
 
 
-void run()
-{
+const UnitTest registered_test("table_files", [] {
   print_names();
   grow();
   print_labels();
-}
-
-const UnitTest registered_test("table_files", run);
+});
 } // namespace test_table_files
 
 

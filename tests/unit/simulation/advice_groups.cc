@@ -255,13 +255,10 @@ void test_cost()
   expect(without_water(start, column).later.seconds / start.later.seconds, 0.65, 1e-9, "soil without its water");
 }
 
-void run()
-{
+const UnitTest registered("advice_groups", [] {
   test_groups();
   test_regimes();
   test_resolution();
   test_cost();
-}
-
-const UnitTest registered("advice_groups", run);
+});
 } // namespace test_advice_groups

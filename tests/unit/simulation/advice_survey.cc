@@ -106,13 +106,10 @@ void test()
     }
 }
 
-void run()
-{
+const UnitTest registered("advice_survey", [] {
   test<2>();
   test<3>();
-}
-
-const UnitTest registered("advice_survey", run);
+});
 } // namespace test_advice_survey
 
 // Runs with mpirun=1,2.

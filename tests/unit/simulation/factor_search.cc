@@ -57,8 +57,7 @@ void judge(const double speed, const double growth, const TrialEnd expected, con
 }
 
 
-void run()
-{
+const UnitTest registered("factor_search", [] {
   SafetyParameters safety;
   const std::string larger = ": the slope still comes to rest with its strength divided by this. Write a larger one.";
   search(safety, 1.374, "0.5 1 1.3 1.69 1.495 1.3975 1.34875 1.37312 1.38531 1.37922", "1.37312 to 1.37922");
@@ -85,7 +84,5 @@ void run()
   judge(0.1, 0.4, TrialEnd::rests, 6.1); // slower and slower
   judge(0.5, 0.4, TrialEnd::fails, 0.6); // beyond the displacement before it rests
   judge(1e-4, 1., TrialEnd::rests, 1.1); // at rest
-}
-
-const UnitTest registered("factor_search", run);
+});
 } // namespace test_factor_search

@@ -6,8 +6,7 @@
 
 namespace test_step_speeds
 {
-void run()
-{
+const UnitTest registered("step_speeds", [] {
   const double no_number = std::numeric_limits<double>::quiet_NaN();
   for (const std::vector<double> &of_bodies :
        { std::vector<double>{ 1., 3., 2. }, { no_number, 3., 2. }, { 1., no_number, 2. }, { 1., 3., no_number } })
@@ -22,7 +21,5 @@ void run()
       require(is_number ? speeds.points == 3. : std::isnan(speeds.points), "speed of the points");
       expect(speeds.wave, std::isnan(of_bodies[1]) ? 20. : 30., 0., "speed of the waves");
     }
-}
-
-const UnitTest registered("step_speeds", run);
+});
 } // namespace test_step_speeds

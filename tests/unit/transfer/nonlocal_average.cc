@@ -129,16 +129,13 @@ void test(const double sum_of_wave)
 }
 
 
-void run()
-{
+const UnitTest registered("nonlocal_average", [] {
   expect(NonlocalAverage<2>::n_passes(0.5), 0, 0, "passes for half a cell");
   expect(NonlocalAverage<2>::n_passes(1), 2, 0, "passes for one cell");
   expect(NonlocalAverage<2>::n_passes(2), 8, 0, "passes for two cells");
   test<2>(-0.5029497582);
   test<3>(-0.197780307);
-}
-
-const UnitTest registered("nonlocal_average", run);
+});
 } // namespace test_nonlocal_average
 
 // Runs with mpirun=1,2.

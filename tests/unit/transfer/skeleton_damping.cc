@@ -92,11 +92,8 @@ void test()
 }
 
 
-void run()
-{
+const UnitTest entry("skeleton_damping", [] {
   test<2>();
   test<3>();
-}
-
-const UnitTest entry("skeleton_damping", run);
+});
 } // namespace test_skeleton_damping

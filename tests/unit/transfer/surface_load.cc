@@ -135,8 +135,7 @@ void test_balance(const double above)
 }
 
 
-void run()
-{
+const UnitTest registered("surface_load", [] {
   for (const std::string basis : { "spline", "linear" })
     {
       test_patch<2>(basis, { 0., 0.5 }, { 0.63, 0.5 }, "100; -50*t", 0.63, Tensor<1, 2>({ 63., -63. }), 26);
@@ -151,9 +150,7 @@ void run()
     test_balance<2>(above);
   for (const double above : { 0., 0.01, 0.5 })
     test_balance<3>(above);
-}
-
-const UnitTest registered("surface_load", run);
+});
 } // namespace test_surface_load
 
 // Runs with mpirun=1,2.

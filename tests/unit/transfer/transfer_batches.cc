@@ -315,12 +315,9 @@ void test_all(RandomNumbers &random)
 }
 
 
-void run()
-{
+const UnitTest registered("transfer_batches", [] {
   RandomNumbers random;
   test_all<2>(random);
   test_all<3>(random);
-}
-
-const UnitTest registered("transfer_batches", run);
+});
 } // namespace test_transfer_batches

@@ -95,17 +95,14 @@ void test(const std::string &basis, const std::string &method)
 }
 
 
-void run()
-{
+const UnitTest registered("transfer_sums", [] {
   for (const std::string basis : { "spline", "linear" })
     for (const std::string method : { "FLIP", "TPIC", "AFLIP" })
       {
         test<2>(basis, method);
         test<3>(basis, method);
       }
-}
-
-const UnitTest registered("transfer_sums", run);
+});
 } // namespace test_transfer_sums
 
 // Runs with mpirun=1,2.

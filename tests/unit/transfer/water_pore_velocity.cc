@@ -222,13 +222,10 @@ namespace
 } // namespace
 
 
-void run()
-{
+const UnitTest registered("water_pore_velocity", [] {
   test<2>();
   test<3>();
-}
-
-const UnitTest registered("water_pore_velocity", run);
+});
 } // namespace test_water_pore_velocity
 
 // Runs with mpirun=1,2.

@@ -52,9 +52,6 @@ class Column(NamedTuple):
         return rms, "% of each" if self.is_logarithmic else "% of the largest"
 
 
-# Tables ---------------------------------------------------------------------------------------------------------------
-
-
 def read_csv(file):
     """{name: texts} and the line numbers. Lines that begin with # are comments; the first other one has the names. Separator: comma, semicolon or tab;
     with the latter two a comma may be the decimal sign. Throws a ValueError."""
@@ -97,9 +94,6 @@ def row_weights(strain, kind):
     """By the strain between the middles to both neighbours ("strain"), or all the same ("rows")."""
     weights = np.abs(np.gradient(strain)) if kind == "strain" and len(strain) > 1 else np.ones(len(strain))
     return weights / weights.sum() if weights.sum() > 0 else np.full(len(strain), 1 / len(strain))
-
-
-# The same of the law --------------------------------------------------------------------------------------------------
 
 
 def final_strain(path, coordinate, largest, strain):

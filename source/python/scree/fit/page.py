@@ -35,9 +35,6 @@ def _pairs(problem, solution):
             yield test, table, column, laboratory.at_rows(column, test.coordinate, table, test.strain)
 
 
-# Report ---------------------------------------------------------------------------------------------------------------
-
-
 def text(problem, runs, solution):
     """Values, correlations, differences, flags; the same on the screen and in report.txt."""
     parts = [f"Fit of {problem.file}: {len(problem.tests)} tests, {problem.n_values} values, {len(problem.parameters)} free entries\n"
@@ -50,7 +47,7 @@ def text(problem, runs, solution):
                     [[f"[{number}]", *(f"{value:+.2f}" for value in row[:number])] + [""] * (len(row) - number)
                      for number, row in enumerate(solution.correlation, 1)]),
              _table(["test", "quantity", "values", "rms", "", "largest"],
-                    [[test.name, column.name, str(len(column.values)), f"{rms:.3g}", unit, f"{100 * _factor(column) * _worst(column, law):.3g}"]
+                    [[test.name, column.name, str(len(column.values)), f"{rms:.3g}", unit, f"{100 * (column.largest if column.is_strain else 1.) * np.max(np.abs(column.differences(law))):.3g}"]
                      for test, _, column, law in _pairs(problem, solution) for rms, unit in [column.rms(law)]]),
              "\n".join(f"FLAG  {flag}." for flag in solution.flags) or "No flags."]
     if runs.failures:
@@ -60,21 +57,10 @@ def text(problem, runs, solution):
     return "\n\n".join(parts)
 
 
-def _factor(column):
-    return column.largest if column.is_strain else 1.
-
-
-def _worst(column, law):
-    return float(np.max(np.abs(column.differences(law))))
-
-
 def _table(head, rows):
     widths = [max(map(len, cells)) for cells in zip(head, *rows)]
     return "\n".join("  ".join(cell.ljust(width) if place < 2 else cell.rjust(width) for place, (cell, width) in enumerate(zip(cells, widths))).rstrip()
                      for cells in [head, *rows])
-
-
-# Files ----------------------------------------------------------------------------------------------------------------
 
 
 def _write_parameters(file, problem, solution):
@@ -108,9 +94,6 @@ def snippet(problem, solution):
     lines += [f"# Differs between the tests: {entry} = {', '.join(case.get(entry, 'default') for case in cases)}." for entry in different]
     entries = {entry: value + comment for entry, (value, comment) in {**shared, **fitted}.items()}
     return variants.set_entries("\n".join(lines) + "\n", entries).rstrip("\n") + "\n"
-
-
-# Picture --------------------------------------------------------------------------------------------------------------
 
 
 def draw(problem, solution, file):

@@ -90,9 +90,6 @@ def read(file):
     return problem
 
 
-# Single entries -------------------------------------------------------------------------------------------------------
-
-
 def _check_keys(file, given, keys, table):
     if not isinstance(given, dict):
         raise ValueError(f"{file}: [{table}] = {settings.text(given)}: write a table with the entries {', '.join(keys)}")
@@ -115,9 +112,6 @@ def _parameter(file, entry, given):
     if is_logarithmic and low <= 0:
         raise settings.fault(file, entry, given, f"a logarithmic scale needs low above 0, and it is {low:g}", "parameters")
     return Parameter(entry, start, low, high, is_logarithmic)
-
-
-# Tests ----------------------------------------------------------------------------------------------------------------
 
 
 def _test(file, given, name, own, weights, step):
@@ -220,9 +214,6 @@ def _check_coordinate(data, coordinate, x, lines):
     worst = int(np.argmax(fall))
     if fall[worst] > 0.02 * np.nanmax(np.abs(x)):
         raise ValueError(f"{data}, line {lines[worst]}: {coordinate} falls, and the path only loads. Remove what follows, or write largest_strain")
-
-
-# Entries, as the program knows them -----------------------------------------------------------------------------------
 
 
 def _check_entries(file, test, common, parameters):

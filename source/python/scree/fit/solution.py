@@ -109,9 +109,6 @@ def solve(problem, runs, tell=print):
     return Solution(values, sigma, correlation, flags, laws, float(np.sum(found.fun**2)), float(np.sum(given**2)), found.nfev, time.monotonic() - fit.begin)
 
 
-# Uncertainty ----------------------------------------------------------------------------------------------------------
-
-
 def follow_up(differences):
     """By how much fewer independent readings there are than rows: (1 + r)/(1 - r) with the correlation r of neighbours (Bayley & Hammersley 1946), 1 to
     half the number of rows."""

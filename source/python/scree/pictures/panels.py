@@ -171,9 +171,6 @@ def save_picture(figure, output, dpi=130):
     plt.close(figure)
 
 
-# Films ----------------------------------------------------------------------------------------------------------------
-
-
 class _Gif(animation.PillowWriter):
     """Frames with the colours of the middle of the film, without dithering, so that what rests costs nothing."""
 

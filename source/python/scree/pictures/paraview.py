@@ -8,69 +8,7 @@ import numpy as np
 from scree import results, terrain, variants
 from scree.pictures import fields, plane
 
-SCRIPT = '''\
-# Written by scree-render --paraview for {run}.
-# Start it by `paraview --script={name}`, or `pvpython {name}`, which writes {name_of_picture}.
-import os
-import sys
-
-from paraview.simple import *
-
-folder = os.path.dirname(os.path.abspath(globals().get("__file__", {absolute!r})))
-view = GetActiveViewOrCreate("RenderView")
-view.OrientationAxesVisibility = 1
-
-
-def array_of(source, name):
-    """The array `name` of the file, whose name may end with a unit in brackets."""
-    return next(array for array in source.PointData.keys() if array.split(" [")[0] == name)
-
-
-def show(file, name, low, high, preset, inverted, radius, title):
-    source = PVDReader(registrationName=file, FileName=os.path.join(folder, "solution", file))
-    source.UpdatePipeline(source.TimestepValues[-1] if hasattr(source.TimestepValues, "__len__") else source.TimestepValues)
-    display = Show(source, view)
-    display.SetRepresentationType("Point Gaussian")
-    display.GaussianRadius = radius
-    display.ShaderPreset = {shape!r}
-    array = array_of(source, name)
-    values = source.PointData[array]
-    ColorBy(display, ("POINTS", array, "Magnitude") if values.GetNumberOfComponents() > 1 else ("POINTS", array))
-    colours = GetColorTransferFunction(array)
-    colours.ApplyPreset(preset, True)
-    if inverted:
-        colours.InvertTransferFunction()
-    colours.RescaleTransferFunction(low, high)
-    bar = GetScalarBar(colours, view)
-    bar.Title, bar.ComponentTitle = title, ""
-    display.SetScalarBarVisibility(view, True)
-    return source
-
-
-def show_ground(file):
-    ground = LegacyVTKReader(registrationName=file, FileNames=[os.path.join(folder, file)])
-    display = Show(ground, view)
-    display.SetRepresentationType("Surface")
-    display.AmbientColor = display.DiffuseColor = [0.75, 0.72, 0.67]
-
-
-# Values are in the SI units of the files.
-{shown}
-
-scene = GetAnimationScene()
-scene.UpdateAnimationUsingDataTimeSteps()
-scene.GoToLast()
-
-view.InteractionMode = {interaction!r}
-view.CameraParallelProjection = 1
-view.CameraFocalPoint = {focus}
-view.CameraPosition = {position}
-view.CameraViewUp = {up}
-view.CameraParallelScale = {scale:.6g}
-Render(view)
-if "pvpython" in os.path.basename(sys.executable) or "pvbatch" in os.path.basename(sys.executable):
-    SaveScreenshot(os.path.join(folder, {name_of_picture!r}), view, ImageResolution=[1600, 1000])
-'''
+SCRIPT = pathlib.Path(__file__).with_name("paraview_state.txt")
 # Of ParaView for matplotlib's colour maps, and whether it is to be inverted.
 PRESETS = {"RdBu_r": ("Cool to Warm", False), "YlOrRd": ("Inferno (matplotlib)", True)}
 
@@ -101,11 +39,9 @@ def write_ground(run, box, output):
         return False
     if ground is None:
         return False
-    rows, columns = ground.values.shape
-    x = ground.x - origin[0] + (np.arange(columns) + 0.5) * ground.width
-    y = ground.y - origin[1] + (rows - np.arange(rows) - 0.5) * ground.width
-    places = np.stack([*np.meshgrid(x, y), np.nan_to_num(ground.values, nan=box.lower[2])], axis=-1).reshape(-1, 3)
-    head = f"# vtk DataFile Version 3.0\nground\nASCII\nDATASET STRUCTURED_GRID\nDIMENSIONS {columns} {rows} 1\nPOINTS {len(places)} float"
+    x, y = terrain.places(ground)
+    places = np.stack([*np.meshgrid(x - origin[0], y - origin[1]), np.nan_to_num(ground.values, nan=box.lower[2])], axis=-1).reshape(-1, 3)
+    head = f"# vtk DataFile Version 3.0\nground\nASCII\nDATASET STRUCTURED_GRID\nDIMENSIONS {len(x)} {len(y)} 1\nPOINTS {len(places)} float"
     np.savetxt(output, places, "%.7g", header=head, comments="")
     return True
 
@@ -129,7 +65,7 @@ def write_state(run, output, chosen, limits=None):
     ground = output.with_name(output.stem + "_ground.vtk")
     if box.dim == 3 and write_ground(run, box, ground):
         shown.append(f"show_ground({ground.name!r})")
-    output.write_text(SCRIPT.format(
+    output.write_text(SCRIPT.read_text(encoding="utf-8").format(
         run=run, name=output.name, name_of_picture=output.stem + ".png", absolute=str(output.resolve()), shown="\n".join(shown),
         shape="Plain circle" if box.dim == 2 else "Sphere", interaction=f"{box.dim}D", focus=_list(focus), position=_list(position), up=_list(up),
         scale=scale), encoding="utf-8")

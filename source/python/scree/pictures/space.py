@@ -29,6 +29,13 @@ LARGEST_LATTICE = 2_500_000  # nodes at which the ground is sampled
 SUPERSAMPLING = 2
 
 
+def _set(vtk_object, **values):
+    """The object of VTK with other values: _set(vtkLight(), Intensity=0.3) calls SetIntensity(0.3)."""
+    for name, value in values.items():
+        getattr(vtk_object, "Set" + name)(*value if isinstance(value, (tuple, np.ndarray)) else (value,))
+    return vtk_object
+
+
 # A window of VTK that no screen shows. Debian's VTK draws by an X server only: where none is there, Xvfb is started for the time of the drawing.
 
 
@@ -39,9 +46,7 @@ def offscreen_window(width, height):
         window = vtkRenderWindow()
         if window.IsA("vtkXOpenGLRenderWindow"):
             stack.enter_context(_x_server())
-        window.SetOffScreenRendering(1)
-        window.SetMultiSamples(0)
-        window.SetSize(width, height)
+        _set(window, OffScreenRendering=1, MultiSamples=0, Size=(width, height))
         # Before the server ends: it would end this program, too.
         stack.callback(window.Finalize)
         yield window
@@ -152,21 +157,13 @@ def _contour(coordinates, values, level, outside, fields=()):
     """
     width = 1e-3 * (coordinates[0][1] - coordinates[0][0])
     coordinates = [np.concatenate([[line[0] - width], line, [line[-1] + width]]) for line in coordinates]
-    grid = vtkRectilinearGrid()
-    grid.SetDimensions(*(len(line) for line in coordinates))
-    for set_coordinates, line in zip((grid.SetXCoordinates, grid.SetYCoordinates, grid.SetZCoordinates), coordinates):
-        set_coordinates(numpy_to_vtk(line, deep=True))
+    lines = {f"{axis}Coordinates": numpy_to_vtk(line, deep=True) for axis, line in zip("XYZ", coordinates)}
+    grid = _set(vtkRectilinearGrid(), Dimensions=tuple(map(len, coordinates)), **lines)
     grid.GetPointData().SetScalars(_array("level", np.pad(values, 1, constant_values=outside).ravel()))
     for name, field in dict(fields).items():
         grid.GetPointData().AddArray(_array(name, np.pad(field, 1, mode="edge").ravel()))
-    contour = vtkContourFilter()
-    contour.SetInputData(grid)
-    contour.SetValue(0, level)
-    contour.ComputeScalarsOff()
-    contour.ComputeNormalsOff()
-    normals = vtkPolyDataNormals()
-    normals.SetInputConnection(contour.GetOutputPort())
-    normals.SetFeatureAngle(35.)
+    contour = _set(vtkContourFilter(), InputData=grid, Value=(0, level), ComputeScalars=0, ComputeNormals=0)
+    normals = _set(vtkPolyDataNormals(), InputConnection=contour.GetOutputPort(), FeatureAngle=35.)
     normals.Update()
     return normals.GetOutput()
 
@@ -178,66 +175,36 @@ def _array(name, values):
     return array
 
 
-def _solid(coordinates, level_set):
-    """The closed surface of what is rigid in the lattice."""
-    bound = 2 * (coordinates[0][1] - coordinates[0][0])
-    return _contour(coordinates, np.clip(level_set, -bound, bound), 0., bound)
-
-
-def _actor(surface, colour=None, ambient=0.32):
-    """`colour`: of all; without it the array "colour" of the surface."""
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputData(surface)
-    mapper.ScalarVisibilityOff()
-    actor = vtkActor()
-    actor.SetMapper(mapper)
+def _actor(mapper, colour=None, ambient=0.32, **properties):
+    """`colour`: of all; without it the array "colour" of what the mapper draws."""
+    mapper.SetScalarVisibility(colour is None)
     if colour is None:
-        _colour_by_array(mapper)
-    else:
-        actor.GetProperty().SetColor(*colour)
-    actor.GetProperty().SetAmbient(ambient)
-    actor.GetProperty().SetDiffuse(1. - ambient)
+        mapper.SetScalarModeToUsePointFieldData()
+        mapper.SelectColorArray("colour")
+        mapper.SetColorModeToDirectScalars()
+    actor = _set(vtkActor(), Mapper=mapper)
+    _set(actor.GetProperty(), Color=colour or (1., 1., 1.), Ambient=ambient, Diffuse=1. - ambient, **properties)
     return actor
 
 
-def _colour_by_array(mapper):
-    mapper.ScalarVisibilityOn()
-    mapper.SetScalarModeToUsePointFieldData()
-    mapper.SelectColorArray("colour")
-    mapper.SetColorModeToDirectScalars()
+def _surface(data, colour=None, ambient=0.32):
+    return _actor(_set(vtkPolyDataMapper(), InputData=data), colour, ambient)
 
 
 def _contour_lines(surface, heights):
     """Lines of equal height on the ground, but not on the planes that cut it."""
     bounds = np.array(surface.GetBounds()).reshape(3, 2)
-    inside = vtkBox()
     margin = 2e-3 * np.max(bounds[:2, 1] - bounds[:2, 0])
-    inside.SetBounds(*(bounds + [[margin, -margin]] * 3).ravel())
-    clipped = vtkClipPolyData()
-    clipped.SetInputData(surface)
-    clipped.SetClipFunction(inside)
-    clipped.InsideOutOn()
-    elevation = vtkElevationFilter()
-    elevation.SetInputConnection(clipped.GetOutputPort())
-    elevation.SetLowPoint(0, 0, bounds[2, 0])
-    elevation.SetHighPoint(0, 0, bounds[2, 1])
-    elevation.SetScalarRange(*bounds[2])
-    lines = vtkContourFilter()
-    lines.SetInputConnection(elevation.GetOutputPort())
+    inside = _set(vtkBox(), Bounds=(bounds + [[margin, -margin]] * 3).ravel())
+    clipped = _set(vtkClipPolyData(), InputData=surface, ClipFunction=inside, InsideOut=1)
+    elevation = _set(vtkElevationFilter(), InputConnection=clipped.GetOutputPort(), LowPoint=(0, 0, bounds[2, 0]), HighPoint=(0, 0, bounds[2, 1]),
+                     ScalarRange=bounds[2])
+    lines = _set(vtkContourFilter(), InputConnection=elevation.GetOutputPort())
     for number, height in enumerate(heights):
         lines.SetValue(number, height)
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputConnection(lines.GetOutputPort())
-    mapper.ScalarVisibilityOff()
+    mapper = _set(vtkPolyDataMapper(), InputConnection=lines.GetOutputPort(), RelativeCoincidentTopologyLineOffsetParameters=(0., -4.))
     mapper.SetResolveCoincidentTopologyToPolygonOffset()
-    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0., -4.)
-    actor = vtkActor()
-    actor.SetMapper(mapper)
-    actor.GetProperty().SetColor(0.35, 0.32, 0.28)
-    actor.GetProperty().SetOpacity(0.45)
-    actor.GetProperty().SetLineWidth(1.2)
-    actor.GetProperty().LightingOff()
-    return actor
+    return _actor(mapper, (0.35, 0.32, 0.28), Opacity=0.45, LineWidth=1.2, Lighting=0)
 
 
 def nice_length(length):
@@ -303,10 +270,11 @@ class Scene:
             if beds and not surface.is_bed:
                 # Only what stands out of the bed: two surfaces in one place would flicker.
                 surface = surface._replace(level_set=np.maximum(surface.level_set, -beds[0]))
-            solid = _solid(self.coordinates, surface.level_set)
+            bound = 2 * (self.coordinates[0][1] - self.coordinates[0][0])
+            solid = _contour(self.coordinates, np.clip(surface.level_set, -bound, bound), 0., bound)
             if not solid.GetNumberOfPoints():
                 continue
-            self.ground.append(_actor(solid, GROUND if surface.is_bed else STRUCTURE))
+            self.ground.append(_surface(solid, GROUND if surface.is_bed else STRUCTURE))
             if surface.is_bed:
                 low, high = self.coordinates[2][0], solid.GetBounds()[5]
                 step = nice_length(max(high - low, 1e-9) / 8)
@@ -320,7 +288,7 @@ class Scene:
         (x, y, z), cube = self.coordinates, vtkCubeSource()
         cube.SetBounds(x[0], x[-1], y[0], y[-1], z[0] - 0.02 * max(np.ptp(x), np.ptp(y)), z[0])
         cube.Update()
-        return _actor(cube.GetOutput(), FLOOR)
+        return _surface(cube.GetOutput(), FLOOR)
 
     def _bounds_of_ground(self, lower, upper):
         bounds = np.array([actor.GetBounds() for actor in self.ground])
@@ -328,23 +296,15 @@ class Scene:
         return np.array([[lower[0], lower[1], np.min(bounds[:, 4])], [upper[0], upper[1], top]])
 
     def _set_view(self):
-        camera, seen = self.renderer.GetActiveCamera(), self.camera
-        camera.ParallelProjectionOn()
-        camera.SetParallelScale(seen.half_height)
-        camera.SetFocalPoint(*seen.focus)
+        seen = self.camera
         distance = 10 * seen.half_height * max(1., seen.width / seen.height)
-        camera.SetPosition(*(seen.focus + distance * seen.towards))
-        camera.SetViewUp(*seen.up)
-        camera.SetClippingRange(0.2 * distance, 2 * distance)
+        _set(self.renderer.GetActiveCamera(), ParallelProjection=1, ParallelScale=seen.half_height, FocalPoint=seen.focus,
+             Position=seen.focus + distance * seen.towards, ViewUp=seen.up, ClippingRange=(0.2 * distance, 2 * distance))
         self.renderer.AutomaticLightCreationOff()
         # The sun stands left of the camera, high; a weak light from the camera fills the shades.
         for direction, intensity in ((seen.towards - 1.0 * seen.right + 0.9 * seen.up, 0.85), (seen.towards + 0.4 * seen.right, 0.35)):
-            light = vtkLight()
-            light.SetPositional(False)
-            light.SetPosition(*(seen.focus + distance * direction))
-            light.SetFocalPoint(*seen.focus)
-            light.SetIntensity(intensity)
-            self.renderer.AddLight(light)
+            self.renderer.AddLight(_set(vtkLight(), Positional=False, Position=seen.focus + distance * direction, FocalPoint=seen.focus,
+                                        Intensity=intensity))
 
     def _skin(self, points, colours):
         """The surface around the material, with the mean colours of what is below it, and which points are too few for one."""
@@ -400,21 +360,13 @@ class Scene:
         cloud.SetVerts(cells)
         cloud.GetPointData().AddArray(_array("colour", (255 * colours[chosen, :3] + 0.5).astype(np.uint8)))
         cloud.GetPointData().AddArray(_array("radius", 0.62 * point_sides(points, self.box)[chosen]))
-        mapper = vtkOpenGLSphereMapper()
-        mapper.SetInputData(cloud)
-        mapper.SetScaleArray("radius")
-        _colour_by_array(mapper)
-        actor = vtkActor()
-        actor.SetMapper(mapper)
-        actor.GetProperty().SetAmbient(0.4)
-        actor.GetProperty().SetDiffuse(0.6)
-        return actor
+        return _actor(_set(vtkOpenGLSphereMapper(), InputData=cloud, ScaleArray="radius"), ambient=0.4)
 
     def _material(self, points, colours):
         skin, alone = self._skin(points, colours)
         limits = np.array([[line[end] for line in self.coordinates] for end in (0, -1)])
         alone &= np.all((points.positions[:, self.order] >= limits[0]) & (points.positions[:, self.order] <= limits[1]), axis=1)
-        return ([_actor(skin, ambient=0.4)] if skin else []) + ([self._spheres(points, colours, alone)] if np.any(alone) else [])
+        return ([_surface(skin, ambient=0.4)] if skin else []) + ([self._spheres(points, colours, alone)] if np.any(alone) else [])
 
     def _free_water(self, water):
         """The water outside of the soil, translucent."""
@@ -423,10 +375,7 @@ class Scene:
         skin, _ = self._skin(water, np.ones((len(water.positions), 4)))
         if not skin:
             return []
-        actor = _actor(skin, WATER)
-        actor.GetProperty().SetOpacity(0.5)
-        actor.GetProperty().BackfaceCullingOn()
-        return [actor]
+        return [_actor(_set(vtkPolyDataMapper(), InputData=skin), WATER, Opacity=0.5, BackfaceCulling=1)]
 
     def image(self, points, colours, water=None):
         """An RGB image (rows from the top) of the points, with a row of `colours` for each, and of the free `water` around them."""

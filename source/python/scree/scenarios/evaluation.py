@@ -23,9 +23,6 @@ class Result(NamedTuple):
     unit: str
 
 
-# Numbers of a run -----------------------------------------------------------------------------------------------------
-
-
 def numbers_of(study, run):
     """{Result: value} of a run that has ended well."""
     run = pathlib.Path(run)
@@ -86,7 +83,7 @@ def farthest(source, reached, ground, least):
         return {}
     x, y = terrain.places(source)
     rows, columns = np.nonzero(has_soil)
-    heights = np.zeros(len(rows)) if ground is None else value_at(ground, x[columns], y[rows])
+    heights = np.zeros(len(rows)) if ground is None else terrain.value_at(ground, x[columns], y[rows])
     top = np.nanargmax(heights + source.values[rows, columns])
     start = x[columns[top]], y[rows[top]]
     x, y = terrain.places(reached)
@@ -95,22 +92,10 @@ def farthest(source, reached, ground, least):
     toe = int(np.argmax(distances))
     found = {Result("run_out", "Run-out", "m"): distances[toe], Result("toe_x", "Toe, x", "m"): x[columns[toe]], Result("toe_y", "Toe, y", "m"): y[rows[toe]]}
     if ground is not None and distances[toe] > 0:
-        drop = heights[top] + source.values[np.nonzero(has_soil)][top] - value_at(ground, x[columns[toe]], y[rows[toe]])
+        drop = heights[top] + source.values[np.nonzero(has_soil)][top] - terrain.value_at(ground, x[columns[toe]], y[rows[toe]])
         found[Result("drop", "Drop, H", "m")] = drop
         found[Result("h_over_l", "H/L", "-")] = drop / distances[toe]
     return found
-
-
-def value_at(raster, x, y):
-    """Values of the cells in which places are; nan outside."""
-    rows, columns = raster.values.shape
-    column = np.floor((np.asarray(x) - raster.x) / raster.width).astype(int)
-    row = rows - 1 - np.floor((np.asarray(y) - raster.y) / raster.width).astype(int)
-    is_inside = (column >= 0) & (column < columns) & (row >= 0) & (row < rows)
-    return np.where(is_inside, raster.values[np.clip(row, 0, rows - 1), np.clip(column, 0, columns - 1)], np.nan)
-
-
-# All runs -------------------------------------------------------------------------------------------------------------
 
 
 def on_one_grid(rasters):
@@ -125,7 +110,7 @@ def on_one_grid(rasters):
     columns, rows = (max(1, math.ceil((extents[:, 2 * axis + 1].max() - start) / width - 1e-9)) for axis, start in enumerate((left, bottom)))
     empty = Raster(np.full((rows, columns), np.nan), left, bottom, width)
     x, y = terrain.places(empty)
-    return [empty._replace(values=value_at(one, *np.meshgrid(x, y))) for one in rasters]
+    return [empty._replace(values=terrain.value_at(one, *np.meshgrid(x, y))) for one in rasters]
 
 
 def probability(rasters, threshold):

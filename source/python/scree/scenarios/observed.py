@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from scree import maps, results, settings, terrain
-from scree.scenarios.evaluation import Result, value_at
+from scree.scenarios.evaluation import Result
 
 FILES = {"impact": "raster", "deposit": "raster", "path": "table"}
 KEYS = (*FILES, "thickness", "source")
@@ -74,7 +74,7 @@ def overlap(area, soil, least):
     """Critical success index, TP/(TP + FP + FN), and the missed and the additional part over the observed area; at the middles of the area's cells."""
     x, y = np.meshgrid(*terrain.places(area))
     is_observed = np.nan_to_num(area.values) > 0
-    is_computed = np.nan_to_num(value_at(soil, x, y)) >= least
+    is_computed = np.nan_to_num(terrain.value_at(soil, x, y)) >= least
     n_both, n_observed = np.count_nonzero(is_observed & is_computed), np.count_nonzero(is_observed)
     if n_observed == 0:
         return np.nan, np.nan, np.nan
@@ -86,5 +86,5 @@ def toe(path, soil, least):
     """How far along a path, m from its first corner, soil of at least `least` m has come; its places are half a cell apart, or less."""
     lengths = np.concatenate([[0.], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
     along = np.unique(np.concatenate([lengths, np.arange(0., lengths[-1], soil.width / 2)]))
-    has_soil = np.nan_to_num(value_at(soil, *(np.interp(along, lengths, column) for column in path.T))) >= least
+    has_soil = np.nan_to_num(terrain.value_at(soil, *(np.interp(along, lengths, column) for column in path.T))) >= least
     return along[has_soil].max() if np.any(has_soil) else 0.

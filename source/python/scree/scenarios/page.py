@@ -3,7 +3,6 @@
 
 import csv
 import html
-import pathlib
 import shutil
 from typing import NamedTuple
 
@@ -72,9 +71,6 @@ def column(result):
 
 def _cell(value):
     return f"{value:.9g}" if np.isfinite(value) else ""  # national coordinates to 1 cm
-
-
-# Maps and pictures ----------------------------------------------------------------------------------------------------
 
 
 def word(study):
@@ -162,9 +158,6 @@ def draw(study, done, probabilities):
     return drawn
 
 
-# The report -----------------------------------------------------------------------------------------------------------
-
-
 def summary(study, done):
     """[(is good, label, text)]: how many runs there are, what is missing, what their checks say."""
     n_runs, n_done = len(study.rows), len(done.numbers)
@@ -236,13 +229,11 @@ def _run_table(study, done):
 def page(study, done, probabilities, pictures):
     """The text of the report."""
     def figures(*names):
-        return "\n".join(f'<figure><img alt="{html.escape(pictures[name])}" src="{report.embedded((study.folder / f"{name}.png").read_bytes())}">'
-                         f"<figcaption>{html.escape(pictures[name])}</figcaption></figure>" for name in names if name in pictures)
+        return "\n".join(report.figure(pictures[name], (study.folder / f"{name}.png").read_bytes()) for name in names if name in pictures)
 
     failed = [(number, one.word, one.message) for number, one in done.verdicts.items() if one.word in ("failed", "stopped")]
-    texts = [(study.file.name, study.file), (f"Base case, {study.case.name}", study.case)]
-    files = "".join(f"<details><summary>{html.escape(heading)}</summary><pre>{html.escape(variants.read_case(file) if file.suffix == '.prm' else _read(file))}"
-                    "</pre></details>" for heading, file in texts)
+    texts = [(study.file.name, study.file.read_text(encoding="utf-8").strip()), (f"Base case, {study.case.name}", variants.read_case(study.case))]
+    files = "".join(f"<details><summary>{html.escape(heading)}</summary><pre>{html.escape(text)}</pre></details>" for heading, text in texts)
     sections = [
         ("verdict", "Verdict", "\n".join(f'<div class="{"good" if is_good else "bad"}"><b>{label}</b> {html.escape(text)}</div>'
                                          for is_good, label, text in summary(study, done))),
@@ -256,7 +247,3 @@ def page(study, done, probabilities, pictures):
         ("study", "Study", files),
     ]
     return report.document(study.folder.resolve().name, "scenarios of Scree", report.description(study.file), sections)
-
-
-def _read(file):
-    return pathlib.Path(file).read_text(encoding="utf-8").strip()

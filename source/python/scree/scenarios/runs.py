@@ -79,9 +79,6 @@ def _values(study):
             for number, row in zip(study.numbers, study.rows)}
 
 
-# Before the runs ------------------------------------------------------------------------------------------------------
-
-
 @contextlib.contextmanager
 def only_one(study):
     """Throws a ValueError if another scree-scenarios works in the folder."""
@@ -156,9 +153,6 @@ def estimate(study):
     return float(found.group(1)) + 1, "scree --advise of the first run, and 1 s for its start"
 
 
-# The runs -------------------------------------------------------------------------------------------------------------
-
-
 def duration(seconds):
     if not seconds < 1e9:
         return "?"
@@ -191,7 +185,9 @@ def start(study, n_cores, n_ranks, profile, sleep=0.5):
             process.wait()
             return True
     if process.returncode != 0 and not any((study.run(number) / name).exists() for number in waiting for name in ("failed", "finished")):
-        raise ValueError(f"Snakemake has started no run: {_last_line(study.folder / 'snakemake.log')} (its log: {study.folder / 'snakemake.log'})")
+        log = study.folder / "snakemake.log"
+        told = log.read_text(encoding="utf-8", errors="replace").strip().splitlines()
+        raise ValueError(f"Snakemake has started no run: {told[-1] if told else 'no message'} (its log: {log})")
     return False
 
 
@@ -210,8 +206,3 @@ def _watch(study, waiting, process, sleep):
             told, told_time = good + bad, now
         if not is_over:
             time.sleep(sleep)
-
-
-def _last_line(file):
-    lines = file.read_text(encoding="utf-8", errors="replace").strip().splitlines()
-    return lines[-1] if lines else "no message"

@@ -93,9 +93,6 @@ def _check_numbers(kind, numbers):
         raise ValueError("less than 1 % of the distribution lies between low and high")
 
 
-# Designs --------------------------------------------------------------------------------------------------------------
-
-
 def medians(distributions):
     """Of a list its first value."""
     return [one.numbers["values"][0] if one.is_list else one.quantile(0.5) for one in distributions]

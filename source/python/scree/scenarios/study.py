@@ -84,9 +84,6 @@ def read(file):
     return study
 
 
-# What is in the file --------------------------------------------------------------------------------------------------
-
-
 def _parameter(file, table, entry, value):
     try:
         distribution = sampling.distribution_of(value)
@@ -146,9 +143,6 @@ def _observed(file, given, entries):
         return observed.read(file.parent, given["observed"])
     except ValueError as error:
         raise ValueError(f"{file}: [observed], {error}") from error
-
-
-# Entries and values, as the program knows them ------------------------------------------------------------------------
 
 
 def _check_entries(file, base, fixed, parameters):
@@ -220,9 +214,6 @@ def _ask_program(study, one, value, row):
         table = "factors" if one.is_factor else "parameters"
         raise settings.fault(study.file, one.entry, value, "the program refuses the case: "
                      + " ".join(done.stderr.split()).replace(f"scree: {case}, ", ""), table)
-
-
-# Cases ----------------------------------------------------------------------------------------------------------------
 
 
 def write_case(study, row, target, entries=None):

@@ -36,8 +36,9 @@ def _finite(row, *names):
     return all(isinstance(row.get(name), (int, float)) and math.isfinite(row[name]) for name in names)
 
 
-def mark_pareto(rows, error, cost="core-seconds"):
-    """Adds the column "Pareto": no other run is at least as good in both and better in one."""
+def mark_pareto(rows):
+    """Adds the column "Pareto": no other run is at least as good in error and cost and better in one."""
+    error, cost = "error", "core-seconds"
     for row in rows:
         row["Pareto"] = _finite(row, error, cost) and not any(
             other[error] <= row[error] and other[cost] <= row[cost] and (other[error], other[cost]) != (row[error], row[cost])
@@ -88,7 +89,7 @@ class WorkPrecision(Curves):
         self.methods, self.ylabel, self.annotate, self.unit = methods, ylabel, annotate, unit
 
     def complete(self, rows):
-        mark_pareto(rows, "error")
+        mark_pareto(rows)
 
     def _draw(self, figure, rows):
         axes = figure.subplots()

@@ -117,25 +117,6 @@ def grouped(rows, *names):
     return found
 
 
-# The bounds of the maps and what a default cell is, for the list of the studies.
-BOUNDS_IN_WORDS = f"""Stability maps share their bounds (`BOUNDS` in `source/python/scree/studies/measures.py`).
-A run is stable if it meets all of these:
-
-- it comes to its end with finite numbers;
-- it gains at most {BOUNDS["gain"]:g} of the energy that it releases;
-- V/V_0 (J) of each soil point stays between {BOUNDS["smallest J"]:g} and {BOUNDS["largest J"]:g};
-- the oscillation of p is at most {BOUNDS["oscillation of p"]:g}, that of p' at most {BOUNDS["oscillation of p'"]:g};
-- the error is at most {BOUNDS["error"]:g}.
-
-"Near a bound" are stable runs with a number above half of its bound.
-Each is in the unit that the section names; what a map does not measure is not judged.
-Each map had bounds of its own when it was run.
-The shared ones are those that most maps had for energy, volumes and p, and the strictest of all maps for p' and the error.
-A default cell has the program's defaults for the options that its map compares, and the
-[recommended number of points](../../choosing.md#points-per-cell).
-What describes the scene (conductivity, step, speed, size) is no option."""
-
-
 def cause(run):
     """Why a run stopped, in short; "-" for one that ended."""
     if run.ended:
@@ -174,6 +155,13 @@ def energy_gain(run, energy=None):
     dissipation = run.statistics("Numerical dissipation (J)")
     fall = np.max(np.maximum.accumulate(dissipation) - dissipation)
     return float(fall / scale) if np.isfinite(fall) else np.inf
+
+
+def mean_depth(places, volumes, low, high):
+    """Of a plane deposit from `low` to `high` (numbers or arrays), averaged, m; of points at these places, as if their volume were at the point."""
+    order = np.argsort(places)
+    places, below = places[order], np.cumsum(volumes.ravel()[order])
+    return (np.interp(high, places, below) - np.interp(low, places, below, left=0.)) / (high - low)
 
 
 def lost_energy(run):

@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The pages of the studies as text: a page a topic, a section a study, first what holds, at its end what does not; lines of at most 120 characters."""
+"""The pages of the studies as text: a page a topic, a section a study, first what holds, at its end what does not; lines of at most 120 characters.
+
+doc/studies/intro has the text of each section, NAME.md, and that of the bounds."""
 
 import math
 import re
 from typing import NamedTuple
 
+from scree.command import ROOT
 from scree.studies.charts import StabilityMap
-from scree.studies.measures import BOUNDS_IN_WORDS, map_table, share_of_defaults
+from scree.studies.measures import BOUNDS, map_table, share_of_defaults
 
 LINE = 120
-ITEM = re.compile(r"(- |\d+\. )")
+INTRODUCTIONS = ROOT / "doc" / "studies" / "intro"
 SENTENCES = re.compile(r"(?<=[.!?])(?<!al\.)\s+(?=[A-Z0-9`*(\[\"]|p )")
 MARKUP = re.compile(r"([-+*>#|]|#+|\d+[.)])$")  # a word that would begin a list, a heading or a table at the start of a line
 
@@ -57,19 +60,8 @@ def sentences(text, first="", indent=""):
     return lines
 
 
-def paragraphs(text):
-    """Text with lists and tables, a sentence a line."""
-    lines = []
-    for paragraph in re.split(r"\n\s*\n", text.strip()):
-        if paragraph.startswith("|"):
-            lines += paragraph.splitlines()
-        else:
-            for part in re.split(r"\n(?=- |\d+\. )", paragraph):
-                mark = ITEM.match(part)
-                mark = mark.group(1) if mark else ""
-                lines += sentences(part[len(mark):], mark, " " * len(mark))
-        lines.append("")
-    return lines[:-1]
+def introduction(name):
+    return (INTRODUCTIONS / f"{name}.md").read_text(encoding="utf-8").rstrip()
 
 
 def table(rows, indent=""):
@@ -113,10 +105,6 @@ def comparison(studies):
                     for quantity, unit, measured, computed in lines)]) if lines else []
 
 
-def _cost(core_seconds):
-    return f"{core_seconds:.0f} core-seconds" if core_seconds < 90 else f"{core_seconds / 60:.0f} core-minutes"
-
-
 def slug(title):
     """The anchor of a heading, as GitHub and MyST name it."""
     return re.sub(r"\s", "-", re.sub(r"[^\w\s-]", "", title.lower()))
@@ -130,27 +118,28 @@ def topic_of(name):
     raise ValueError(f"pages.TOPICS has no page for the study {name}")
 
 
-def section_text(name, study, introduction, rows, claims):
+def section_text(name, study, rows, claims):
     """What holds, chart, text, one table and what does not hold of a study."""
     seconds = sum(row["core-seconds"] for row in rows if math.isfinite(row.get("core-seconds", math.nan)))
+    cost = f"{seconds:.0f} core-seconds" if seconds < 90 else f"{seconds / 60:.0f} core-minutes"
     lines = [f"## {study.title}", ""]
     for text in results(study, rows, claims):
         lines += sentences(text, "- ", "  ")
-    lines += ["", f"![{study.title}]({name}.svg)", "", *paragraphs(introduction)]
+    lines += ["", f"![{study.title}]({name}.svg)", "", introduction(name)]
     found = study.table(rows) if study.table else map_table(rows) if isinstance(study.chart, StabilityMap) else None
     lines += ["", *table(found)] if found else []
     missed = misses(study, rows, claims)
     for label, text in missed:
         lines += ([""] if (label, text) == missed[0] else []) + sentences(f"**{label}** {text}", "- ", "  ")
-    lines += ["", *filled(f"Repeat: `build/scree-study {name}` ({len(rows)} runs, {_cost(seconds)}, `{study.base}`); numbers: [{name}.csv]({name}.csv).")]
+    lines += ["", *filled(f"Repeat: `build/scree-study {name}` ({len(rows)} runs, {cost}, `{study.base}`); numbers: [{name}.csv]({name}.csv).")]
     return "\n".join(lines) + "\n"
 
 
 FAILED, UNSTABLE = "Does not hold.", "Not stable."
 
 
-def page_text(topic, studies, introductions):
-    """A page; studies: {name: (study, rows, claims)} of all studies, introductions: {name: text}."""
+def page_text(topic, studies):
+    """A page; studies: {name: (study, rows, claims)} of all studies."""
     title, names = TOPICS[topic]
     names = [name for name in names if name in studies]
     lines = [f"# {title}", "",
@@ -159,7 +148,7 @@ def page_text(topic, studies, introductions):
                        for study, _, claims in (studies[name] for name in names))])]
     compared = comparison(studies[name] for name in names)
     lines += ["", *compared] if compared else []
-    return "\n".join([*lines, "", *("\n".join(section_text(name, studies[name][0], introductions[name], *studies[name][1:]) for name in names).splitlines())]) + "\n"
+    return "\n".join([*lines, "", *("\n".join(section_text(name, *studies[name]) for name in names).splitlines())]) + "\n"
 
 
 def index_text(studies):
@@ -185,4 +174,4 @@ def index_text(studies):
              *table([("study", "what to do", "claims that hold"), *((link(name), studies[name][0].advice, n_held(studies[name][2])) for name in names)]), "",
              *comparison(studies.values()), *section("Claims that do not hold", FAILED),
              *section("Maps with default cells that are not stable", UNSTABLE)]
-    return "\n".join([*lines, "", "## Bounds of the stability maps", "", *paragraphs(BOUNDS_IN_WORDS)]) + "\n"
+    return "\n".join([*lines, "", "## Bounds of the stability maps", "", introduction("bounds").format_map(BOUNDS)]) + "\n"

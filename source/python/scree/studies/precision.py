@@ -5,10 +5,29 @@ Rows have the columns "method" and "h", the cell size, and an error, which is na
 """
 
 import math
+import re
 
 import numpy as np
 
 DEFAULTS = "defaults"
+# The options that studies compare, by their names: what stands in parentheses is the value of the entries.
+OPTIONS = {"(linear)": ["Mesh/Basis"], "(single)-point": ["Water/Point sets"], "(no|standard|modified) F-bar": ["Stabilisation/F-bar"],
+           "(FLIP)": ["Transfer/Method"], r"PIC rate ([\d.]+)": ["Transfer/PIC rate"], r"Courant number ([\d.]+)": ["Time step/Courant number"],
+           r"tolerance ([-\de]+)": ["Water/Pressure/Relative tolerance"], r"(\d) x \1 points": ["Soil/Points per cell", "Water/Points per cell"]}
+
+
+def methods(*options, without="none"):
+    """{name: entries} of the defaults and of options: names of OPTIONS, or {name: entries}. `without`: the body that the case does not have."""
+    found = {DEFAULTS: {}}
+    for option in options:
+        found.update(option if isinstance(option, dict) else {option: _entries_of(option, without)})
+    return found
+
+
+def _entries_of(name, without):
+    value, entries = next((match.group(1), entries) for pattern, entries in OPTIONS.items() if (match := re.fullmatch(pattern, name)))
+    value = float(value) if value[0].isdigit() else {"no": "none"}.get(value, value)
+    return {entry: value for entry in entries if not entry.startswith(without + "/")}
 
 
 def curve(rows, method=DEFAULTS, column="error"):
@@ -28,13 +47,13 @@ def failed(rows, method):
     return sorted(row["h"] for row in rows if row["method"] == method and not math.isfinite(row.get("error", math.nan)))
 
 
-def order(rows, method=DEFAULTS, column="error"):
+def order(rows, method=DEFAULTS):
     """Order of convergence in h between the coarsest and the finest mesh; nan with one mesh."""
-    found = curve(rows, method, column)
+    found = curve(rows, method)
     if len(found) < 2:
         return math.nan
     coarse, *_, fine = found
-    return math.log(found[coarse][column] / found[fine][column]) / math.log(coarse / fine)
+    return math.log(found[coarse]["error"] / found[fine]["error"]) / math.log(coarse / fine)
 
 
 class LimitFit:

@@ -38,9 +38,6 @@ def module_of(name):
     return importlib.import_module(f"scree.studies.cases.{name}")
 
 
-# Runs -----------------------------------------------------------------------------------------------------------------
-
-
 def case_text(study, variant, folder=None):
     """The variant's parameter file, without an output directory; paths of files count from `folder`, or from the base."""
     text = prm_files.read_case(ROOT / (variant.base or study.base), folder)
@@ -93,8 +90,7 @@ def make_run(study, variant, folder, arguments):
 
 def make_runs(name, study, arguments):
     """The runs of all variants, in their order, each with the reference's; with progress."""
-    variants = [variant._replace(entries={**variant.entries, **study.quick_entries}) if arguments.quick else variant
-                for variant in study.variants if not arguments.quick or study.quick(variant.labels)]
+    variants = [variant for variant in study.variants if not arguments.quick or study.quick(variant.labels)]
     reference = study.quick_reference if arguments.quick and study.quick_reference is not None else study.reference
     if reference is not None:
         variants.insert(0, Variant({"reference": "reference"}, reference))
@@ -116,9 +112,6 @@ def make_runs(name, study, arguments):
     for run in runs:
         run.reference = of_reference
     return runs
-
-
-# Tables ---------------------------------------------------------------------------------------------------------------
 
 
 def _text(value):
@@ -158,20 +151,16 @@ def row_of(study, run):
     return row
 
 
-# Pages ----------------------------------------------------------------------------------------------------------------
-
-
 def page_texts():
     """{file: text} of the list of the studies and of all pages, from the committed tables."""
-    studies, introductions = {}, {}
+    studies = {}
     for name in names_of_studies():
-        table, module = PAGES / f"{name}.csv", module_of(name)
+        table, study = PAGES / f"{name}.csv", module_of(name).STUDY
         if table.exists():
             rows = read_table(table)
-            studies[name] = module.STUDY, rows, module.STUDY.verdict(rows)
-            introductions[name] = module.__doc__.strip()
+            studies[name] = study, rows, study.verdict(rows)
     return {PAGES / "README.md": index_text(studies),
-            **{PAGES / f"{topic}.md": page_text(topic, studies, introductions) for topic, (_, names) in TOPICS.items() if set(names) & studies.keys()}}
+            **{PAGES / f"{topic}.md": page_text(topic, studies) for topic, (_, names) in TOPICS.items() if set(names) & studies.keys()}}
 
 
 def finish(name, study, folder, rows=None):

@@ -80,7 +80,7 @@ class Study:
     """`measure(run)` returns the columns of a run; `verdict(rows)` the claims, from the rows as the table holds them.
 
     entries: common to all variants. reference: entries of a run made first, `run.reference` in the measure; quick_reference: that of the
-    short version, if it is another one. quick(labels): whether a variant belongs to the short version, with quick_entries. needs_end: a run that failed has
+    short version, if it is another one. quick(labels): whether a variant belongs to the short version. needs_end: a run that failed has
     no measures. options: of the program, such as --safety. default: the labels of the .prm's defaults, marked in the chart; a stability map needs them, {} if it compares no options, as
     its headline is the share of these cells that are stable.
     environment(): variables that it is run with. after(run, program): what else is to be made in a run's folder, right after it.
@@ -99,7 +99,6 @@ class Study:
     reference: dict | None = None
     quick_reference: dict | None = None
     quick: Callable = lambda labels: True
-    quick_entries: dict = dataclasses.field(default_factory=dict)
     needs_end: bool = True
     default: dict | None = None
     options: tuple = ()
@@ -118,7 +117,6 @@ class Run:
         self.exit_code = exit_code
         self.reference = None
         self._core_seconds = core_seconds
-        self._columns = None
 
     @property
     def ended(self):
@@ -135,12 +133,10 @@ class Run:
         files = (self.folder / "screen.txt", self.folder / "log.txt")
         return "\n".join(file.read_text(encoding="utf-8", errors="replace") for file in files if file.exists())
 
-    @property
+    @functools.cached_property
     def columns(self):
         """The file `statistics`, {"Time (s)": values, ...}: {} if the run broke before its first row."""
-        if self._columns is None:
-            self._columns = results.read_statistics(self.folder) if (self.folder / "statistics").exists() else {}
-        return self._columns
+        return results.read_statistics(self.folder) if (self.folder / "statistics").exists() else {}
 
     def statistics(self, name):
         """A column by its whole name; a KeyError lists the names if there is none. For one that not all runs have: `columns.get(name)`."""

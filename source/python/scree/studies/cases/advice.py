@@ -1,22 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Predicted cost (`scree --advise`) against measured cost for the cases of `prm/` but those with inflow, and variants that were written after the advice.
-Cases that run for many minutes are compared over a first part only; column "whole" of the CSV is False for them, "simulated" is its length in s.
-Cost is processor time of the time steps and the output, without the start-up.
-Run and advice are made three times in turn, and their medians are compared.
-`vibrating_bar` was measured again (first 1.66): 0.1 s of file output, while programs were compiled on the same machine.
-
-The advice extrapolates from half a core-second of the first time steps, one row and one picture.
-A run of the whole case with cells at least twice as wide gives the number of time steps and the growth of their cost.
-Only the cost of a checkpoint was set on these cases.
-The cases of `prm/terrain/mountain_*` are newer than the table.
-`slope_loose` and `slope_loose_fine` were measured with 4 x 4 points per cell, which these cases had then.
-Four rows of cases that are no longer in `prm/` were removed; among them was the largest factor, 1.33.
-"""
+"""The text of its section: doc/studies/intro/advice.md."""
 
 import math
 import re
 import statistics
 import subprocess
+import tomllib
 
 from scree import variants as prm_files
 from scree.studies.charts import Curves, tick_axis
@@ -25,27 +14,7 @@ from scree.studies.study import ROOT, Claim, Run, Study, Variant
 FACTOR = 1.5
 TURNS = 3
 
-# End times, s, of the cases that are not run to their end.
-PARTS = {"column_loose": 1.5, "column_saturated_3d": 0.75, "porous_dam": 1, "submerged_column": 0.8, "quickstart": 0.6, "slope_dense": 0.3,
-         "slope_loose": 0.6, "slope_dense_fine": 0.03, "slope_loose_fine": 0.03, "slope_saturated_dense": 0.3, "slope_saturated_dense_single": 0.15,
-         "slope_saturated_dense_porosity": 0.1, "slope_saturated_loose": 0.5, "slope_saturated_loose_single": 0.15,
-         "slope_saturated_loose_porosity": 0.1, "slope_saturated_mohr_coulomb": 0.3, "nor_sand_slope_2d": 0.1, "slope_dense_friction": 0.3,
-         "slope_loose_friction": 0.3, "gully_dry": 0.02, "gully_saturated": 0.02, "slope_saturated_dense_friction": 0.1, "slope_saturated_loose_friction": 0.1}
-# Cases that had 4 x 4 points when they were measured.
-FORMER = dict.fromkeys(("slope_loose", "slope_loose_fine"), {"Soil/Points per cell": 4})
-# Cases on which nothing was set.
-NEW = {
-    "sloshing": ("water/dam_break", {"End time": 4, "Water/Region": "y < 1 + 0.2*cos(pi*x/6)"}),
-    "tall_dam_break": ("water/dam_break", {"End time": 2, "Mesh/Cell size": 0.1, "Water/Region": "x < 0.8 && y < 2.6", "Transfer/Method": "AFLIP"}),
-    "slow_bore": ("bed/bore", {"End time": 6, "Mesh/Cell size": 0.1, "Obstacle Piston/Velocity": "min(0.8, t); 0"}),
-    "wide_column": ("columns/column_dense", {"End time": 2, "Soil/Region": "x < 1.6 && y < 0.6"}),
-    "stiff_slope": ("slopes/slope_saturated_mohr_coulomb", {"End time": 3, "Mesh/Cell size": 0.1, "Soil/Mohr-Coulomb/Young's modulus": 3e7}),
-    "mountain_fine": ("terrain/mountain_dry", {"End time": 15, "Mesh/Cell size": 5, "Soil/Points per cell": 2}),
-    "mountain_rough": ("terrain/mountain_saturated", {"End time": 30, "Bed/Friction angle": 12}),
-    "block_against_piers": ("bed/slit_dam", {"End time": 3, "Soil/Mohr-Coulomb/Friction angle": 22}),
-    "soaking": ("water/water_on_soil", {"End time": 2, "Mesh/Cell size": 0.1, "Soil/Mohr-Coulomb/Young's modulus": 5e6}),
-    "tall_column": ("columns/column_saturated_3d", {"End time": 0.5, "Soil/Region": "x < 0.4 && y < 0.4 && z < 0.7", "Water/Hydraulic conductivity": 5e-2}),
-}
+OWN = tomllib.loads((ROOT / "doc" / "studies" / "reference" / "advice.toml").read_text(encoding="utf-8"))
 FOLDERS = ("", "bed", "benchmarks", "columns", "consolidation", "contact", "dynamics", "seepage", "slopes", "terrain", "water")
 WITHOUT_RASTERS = {"acheron"}  # they are not in the repository
 TINY = {"terzaghi", "saturated_rest"}
@@ -53,9 +22,10 @@ TINY = {"terzaghi", "saturated_rest"}
 
 def cases():
     files = [file for folder in FOLDERS for file in sorted((ROOT / "prm" / folder).glob("*.prm")) if file.stem not in WITHOUT_RASTERS]
-    old = [Variant({"case": file.stem, "kind": "old"}, {**FORMER.get(file.stem, {}), **({"End time": PARTS[file.stem]} if file.stem in PARTS else {})},
+    old = [Variant({"case": file.stem, "kind": "old"}, {**OWN["former"].get(file.stem, {}), **({"End time": end} if (end := OWN["parts"].get(file.stem)) else {})},
                    str(file.relative_to(ROOT))) for file in files]
-    return old + [Variant({"case": case, "kind": "new"}, entries, f"prm/{base}.prm") for case, (base, entries) in NEW.items()]
+    return old + [Variant({"case": case, "kind": "new"}, {key: value for key, value in given.items() if key != "base"}, given["base"])
+                  for case, given in OWN["new"].items()]
 
 
 def again(run, turn):
@@ -89,7 +59,7 @@ def measure(run):
     runs = [run, *(Run(again(run, turn), run.labels, run.exit_code, math.nan) for turn in range(1, TURNS))]
     cost = sorted((one.cost for one in runs), key=lambda one: one["core-seconds"])[TURNS // 2]
     seconds, steps = map(statistics.median, zip(*(predicted(run, turn) for turn in range(TURNS))))
-    return {**cost, "simulated": run.time[-1], "whole": run.labels["case"] not in PARTS, "predicted core-seconds": seconds, "predicted steps": steps,
+    return {**cost, "simulated": run.time[-1], "whole": run.labels["case"] not in OWN["parts"], "predicted core-seconds": seconds, "predicted steps": steps,
             "cost ratio": seconds / cost["core-seconds"], "steps ratio": steps / cost["steps"]}
 
 

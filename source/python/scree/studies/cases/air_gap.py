@@ -1,35 +1,29 @@
-"""A body 0.4 m high falls on another one, 0.4 m high, between smooth walls; the upper one is named first.
-In the exact end state all is at rest and the gap is closed: air has no pressure.
-The gap (in cells of 0.05 m) and the speed at the start vary.
-The oscillation of p is its RMS at the end (`measures.roughness`) over rho_w g 0.8 m.
-"""
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The text of its section: doc/studies/intro/air_gap.md."""
 import numpy as np
 
 from scree.studies.charts import StabilityMap
 from scree.studies.measures import classify, roughness
-from scree.studies.study import Claim, Study, axis, product
+from scree.studies.study import Claim, Study, Variant
 
 CELL, HEIGHT = 0.05, 0.4  # m
 PAIRS = ["water on water", "soil on water", "water on soil", "soil on soil"]
 
 
-def with_case(variants):
-    """Each variant with the entries of its pair of bodies, gap and speed; water alone has a case without soil for its base."""
-    result = []
-    for labels, entries, *_ in variants:
-        upper, _, lower = labels["pair"].split()
-        gap = labels["gap"] * CELL
-        above, below = f"(y > {HEIGHT + gap:g} && y < {2 * HEIGHT + gap:g})", f"y < {HEIGHT:g}"
-        soil = [region for region, what in ((above, upper), (below, lower)) if what == "soil"]
-        velocity = f"0; if(y > {HEIGHT + gap / 2:g}, {-labels['v']:g}, 0)"
-        entries = {**entries, "Water/Region": f"{below} || {above}", "Water/Initial velocity": velocity}
-        if soil:
-            entries.update({"Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto", "Soil/Points per cell": 3, "Soil/Region": " || ".join(soil),
-                            "Soil/Initial velocity": velocity, "Water/Hydraulic conductivity": 1e-3})
-        else:
-            entries.update({"Water/Volume correction rate": 0, "Time step/Maximum time step": 1e-3})
-        result.append(variants[0]._replace(labels=labels, entries=entries, base=None if soil else "prm/water/dam_break.prm"))
-    return result
+def variant(pair, gap, speed):
+    """A pair of bodies with its gap (cells) and speed; water alone has a case without soil for its base."""
+    upper, _, lower = pair.split()
+    bottom = HEIGHT + gap * CELL
+    above, below = f"(y > {bottom:g} && y < {bottom + HEIGHT:g})", f"y < {HEIGHT:g}"
+    soil = [region for region, what in ((above, upper), (below, lower)) if what == "soil"]
+    velocity = f"0; if(y > {HEIGHT + gap * CELL / 2:g}, {-speed:g}, 0)"
+    entries = {"Water/Region": f"{below} || {above}", "Water/Initial velocity": velocity}
+    if soil:
+        entries.update({"Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto", "Soil/Points per cell": 3, "Soil/Region": " || ".join(soil),
+                        "Soil/Initial velocity": velocity, "Water/Hydraulic conductivity": 1e-3})
+    else:
+        entries.update({"Water/Volume correction rate": 0, "Time step/Maximum time step": 1e-3})
+    return Variant({"pair": pair, "gap": gap, "v": speed}, entries, None if soil else "prm/water/dam_break.prm")
 
 
 def measure(run):
@@ -76,8 +70,7 @@ STUDY = Study(title="Closure of an air gap",
               base="prm/columns/column_saturated.prm", needs_end=False,
               entries={"Mesh/Upper corner": "0.3, 1.2", "Mesh/Cell size": CELL, "Water/Initial pressure": "none", "Water/Points per cell": 3,
                        "End time": 0.5, "Output/Interval": 0.25, "Output/Statistics interval": 0.005},
-              variants=with_case(product(axis("pair", lambda _: {}, PAIRS), axis("gap", lambda _: {}, [0.5, 1., 2., 4.]),
-                                         axis("v", lambda _: {}, [0., 1., 5.]))),
+              variants=[variant(pair, gap, speed) for pair in PAIRS for gap in (0.5, 1., 2., 4.) for speed in (0., 1., 5.)],
               quick=lambda labels: labels["pair"] != PAIRS[1] and labels["gap"] in (1., 4.) and labels["v"] in (0., 5.),
               measure=measure, verdict=verdict, default={},
               chart=StabilityMap("v", "gap", panels=["pair"], xlabel="speed (m/s)", ylabel="gap (cells)"))

@@ -1,19 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Plane collapse of a column of aluminium bars, 0.2 m x 0.1 m (Bui, Fukagawa, Sako & Ohno 2008; `prm/columns/aluminium_bars.prm`).
-Measured and not fitted: friction angle 19.8 degrees in direct shear, bulk modulus 0.7 MPa, Poisson's ratio 0.3, no cohesion, no dilation.
-Inertial friction (mu(I)) has textbook values, I_0 = 0.3 and an increase of 0.26, and d = 1.25 mm, the mean of bars of 1 and 1.5 mm.
-The base is fixed, or has the friction of the bars among themselves; mu(I) on a fixed base is recommended.
-
-- Surface: depth of the deposit (volume over a width of 0.01 m) against the digitised line, at its 23 places; bound 5 mm RMS.
-- Front: where the deposit is 1.5 mm deep, the diameter of the thicker bars and the depth at the last digitised place, 0.442 m; bound 5 %.
-- Failure line: height below which points have moved by less than 1.5 mm, at its 9 places; bound 10 mm RMS.
-"""
-
+"""The text of its section: doc/studies/intro/aluminium_bars.md."""
 
 import numpy as np
 
 from scree.pictures.tables import name_lines
 from scree.studies.charts import RunCurves
+from scree.studies.measures import mean_depth
 from scree.studies.study import Claim, Study, axis, product, reference_rows
 
 BAR = 1.5e-3  # m
@@ -31,10 +23,7 @@ def reference(line):
 
 def depth(points, x):
     """Of the deposit at some places, m."""
-    order = np.argsort(points.positions[:, 0])
-    places, volume = points.positions[order, 0], np.cumsum(points.arrays["volume"].ravel()[order])
-    low, high = np.maximum(x - WIDTH / 2, 0.), x + WIDTH / 2
-    return (np.interp(high, places, volume) - np.interp(low, places, volume, left=0.)) / (high - low)
+    return mean_depth(points.positions[:, 0], points.arrays["volume"], np.maximum(x - WIDTH / 2, 0.), x + WIDTH / 2)
 
 
 def failure_height(points, x, h):

@@ -1,33 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""An elastic bar between two walls vibrates in its first mode at small strain, v = V sin(pi x) cos(pi c t); no point crosses a cell.
-The error is the RMS over velocity and stress of their relative L2 errors over the points at 2.125 periods.
-Velocities are those of half a time step before, as in symplectic Euler.
-Runs with an error above 1 have diverged.
-`prm/dynamics/vibrating_bar.prm` has splines, FLIP without PIC rate, 4 x 4 points per cell, Courant number 0.6 and no F-bar.
-"""
+"""The text of its section: doc/studies/intro/bar.md."""
 
 import math
 
 import numpy as np
 
 from scree.studies.charts import WorkPrecision
-from scree.studies.precision import DEFAULTS, at_finest, costs, failed, order, ratio, table
+from scree.studies.precision import DEFAULTS, at_finest, costs, failed, methods, order, ratio, table
 from scree.studies.study import Claim, Study, axis, product, transfer
 
 SPEED, MODULUS, AMPLITUDE = math.sqrt(10.), 1e4, 1e-5  # of the wave, m/s; Pa; m/s
 TIME = 4.25 / SPEED  # s
 
-METHODS = {
-    DEFAULTS: {},
-    "linear": {"Mesh/Basis": "linear"},
-    "PIC rate 5": {"Transfer/PIC rate": 5},
-    "TPIC": transfer("TPIC"),
-    "2 x 2 points": {"Soil/Points per cell": 2},
-    "3 x 3 points": {"Soil/Points per cell": 3},
-    "Courant number 0.15": {"Time step/Courant number": 0.15},
-    "Courant number 0.9": {"Time step/Courant number": 0.9},
-    "modified F-bar": {"Stabilisation/F-bar": "modified"},
-}
+METHODS = methods("linear", "PIC rate 5", {"TPIC": transfer("TPIC")}, "2 x 2 points", "3 x 3 points", "Courant number 0.15", "Courant number 0.9",
+                  "modified F-bar", without="Water")
 
 
 def mesh(h):

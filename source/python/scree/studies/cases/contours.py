@@ -1,10 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Dry slopes of Nor-Sand (crest and height 2 m, 45 degrees) without stabilisation, with standard and with modified F-bar.
-All fail at 0.4 s, the time of the picture; the dense slope with 0.05 m continues to 1 s.
-Xie, Navas & Lopez-Querol 2024 show such slopes but do not give their geometry.
-The oscillation is the RMS of p' about a plane through 3 x 3 cells, over the mean of p', as a mean over time.
-Energy gained is the largest decrease of the numerical dissipation over the potential energy released.
-"""
+"""The text of its section: doc/studies/intro/contours.md."""
 import numpy as np
 
 from scree import results

@@ -1,14 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Cylinders of dry sand on a rough base (Lube et al. 2004): run-out (r - r0)/r0 = 1.24 a up to a = 1.7, 1.6 sqrt(a) beyond; repose 31 degrees.
-A quarter of the cylinder is computed, r0 = 1 m, with planes of symmetry at x = 0 and y = 0.
-The angle is read as one of repose (36.9 degrees of Mohr-Coulomb), as plane columns need it, and as a triaxial one.
-
-Plan, fixed before the runs: a = 1 with 8, 12 and 16 cells per radius, a = 2 with 8 and 12, 3 x 3 x 3 points, fixed base.
-FLIP with a PIC rate of 1/s; d = 0.011 r0 with mu(I).
-Front: where the deposit is 0.02 r0 deep, averaged over rings of 0.05 r0, as in plane columns. Bound: 10 % of the measured run-out.
-The quantity was chosen after results: the plan had the radius of 99 % of the mass, with a run-out that is 6 to 8 % shorter (cylinders.csv).
-The plan also had 16 cells for a = 2, which were left out for their time.
-"""
+"""The text of its section: doc/studies/intro/cylinders.md."""
 
 import math
 

@@ -1,12 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Dam break on a smooth floor (`prm/water/dam_break.prm`), to t sqrt(2 g/a) = 3.
-The error is the RMS distance to the run of the case with h = 1/60 m, over time (each 0.04 s from 0.2 s on) and over three lengths.
-These are the fronts of 90 and 99 % of the water and the height of the centre of mass, each over its displacement in the reference.
-Sentences and table add the distance of the reference to the limit, A (1/60 m)^p, from the fit error = A (h^p - (1/60 m)^p) to the three meshes of the case.
-The case has AFLIP, splines, 4 x 4 points per cell, a relative tolerance of the pressure of 1e-4, time steps of at most 0.04 s/m times h, Advection number 0.3
-and a volume correction of 7 1/s.
-It keeps 4 x 4 points: with 3 x 3 it gains 0.58 % of the released energy up to 0.9 s (bound 0.5 %), with 4 x 4 it gains 0.04 %.
-"""
+"""The text of its section: doc/studies/intro/dam_break.md."""
 
 import math
 
@@ -15,26 +8,15 @@ import numpy as np
 from scree.studies.cases import dry_slope
 from scree.studies.charts import WorkPrecision
 from scree.studies.measures import lost_energy
-from scree.studies.precision import DEFAULTS, LimitFit, at_finest, costs, curve, ratio, table
+from scree.studies.precision import DEFAULTS, LimitFit, at_finest, costs, curve, methods, ratio, table
 from scree.studies.study import Claim, Study, axis, product
 
 STEP = 0.04  # s/m: longest step over cell size
 REFERENCE = 1 / 60  # m, cells of the reference
 
-METHODS = {
-    DEFAULTS: {},
-    "linear": {"Mesh/Basis": "linear"},
-    "2 x 2 points": {"Water/Points per cell": 2},
-    "3 x 3 points": {"Water/Points per cell": 3},
-    "6 x 6 points": {"Water/Points per cell": 6},
-    "FLIP": {"Transfer/Method": "FLIP"},
-    "half the step": {"Time step/Advection number": 0.15},
-    "twice the step": {"Time step/Advection number": 0.6},
-    "tolerance 1e-2": {"Water/Pressure/Relative tolerance": 1e-2},
-    "tolerance 1e-6": {"Water/Pressure/Relative tolerance": 1e-6},
-    "tolerance 1e-9": {"Water/Pressure/Relative tolerance": 1e-9},
-    "no volume correction": {"Water/Volume correction rate": 0},
-}
+METHODS = methods("linear", "2 x 2 points", "3 x 3 points", "6 x 6 points", "FLIP",
+                  {"half the step": {"Time step/Advection number": 0.15}, "twice the step": {"Time step/Advection number": 0.6}},
+                  "tolerance 1e-2", "tolerance 1e-6", "tolerance 1e-9", {"no volume correction": {"Water/Volume correction rate": 0}}, without="Soil")
 FACTORS = {"half the step": 0.5, "twice the step": 2.}
 
 

@@ -1,16 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A slope of dense dry sand fails and runs out (`prm/slopes/slope_dense.prm`, the first 1.5 s).
-There is no exact solution: the error is the RMS distance to the run of the defaults with h = 0.04 m, over time (each 0.1 s from 0.5 s on) and over three
-lengths.
-These are the fronts of 90 and 99 % of the mass and the height of the centre of mass, each over its displacement in the reference.
-Errors that all meshes share, that of the fixed base above all, are not seen.
-
-The reference has not converged.
-Sentences and table add its distance to the limit, A (0.04 m)^p, from the fit error = A (h^p - (0.04 m)^p) to the four meshes of the defaults.
-A method with another limit would seem worse.
-
-The defaults are splines, FLIP with a PIC rate of 1 1/s, 4 x 4 points per cell, Courant number 0.6 and modified F-bar; the case itself has 5 1/s.
-"""
+"""The text of its section: doc/studies/intro/dry_slope.md."""
 
 import math
 
@@ -18,31 +7,19 @@ import numpy as np
 
 from scree.studies.charts import WorkPrecision
 from scree.studies.measures import energy_gain, lost_energy
-from scree.studies.precision import DEFAULTS, LimitFit, at_finest, costs, curve, ratio, table
-from scree.studies.study import Claim, Study, axis, product
+from scree.studies.precision import DEFAULTS, LimitFit, at_finest, costs, curve, methods, ratio, table
+from scree.studies.study import Claim, Study, axis, product, transfer
 
-METHODS = {
-    DEFAULTS: {},
-    "linear": {"Mesh/Basis": "linear"},
-    "no F-bar": {"Stabilisation/F-bar": "none"},
-    "standard F-bar": {"Stabilisation/F-bar": "standard"},
-    "2 x 2 points": {"Soil/Points per cell": 2},
-    "3 x 3 points": {"Soil/Points per cell": 3},
-    "PIC rate 0": {"Transfer/PIC rate": 0},
-    "PIC rate 5": {"Transfer/PIC rate": 5},
-    "PIC rate 20": {"Transfer/PIC rate": 20},
-    "TPIC": {"Transfer/Method": "TPIC"},
-    "Courant number 0.3": {"Time step/Courant number": 0.3},
-    "Courant number 0.9": {"Time step/Courant number": 0.9},
-}
+METHODS = methods("linear", "no F-bar", "standard F-bar", "2 x 2 points", "3 x 3 points", "PIC rate 0", "PIC rate 5", "PIC rate 20", {"TPIC": transfer("TPIC")},
+                  "Courant number 0.3", "Courant number 0.9", without="Water")
 REFERENCE = 0.04  # m, cells of the reference
 FINEST = (DEFAULTS, "3 x 3 points", "TPIC", "PIC rate 5")  # run on a fourth mesh
 
 
-def lengths(run, gravity=9.81):
+def lengths(run):
     """Fronts of 90 and 99 % of the soil and the height of the centre of mass at the times of the rows, m."""
     mass = run.statistics("Mass (kg)") + run.columns.get("Water mass (kg)", 0.)  # the study of the saturated slope measures so, too
-    return np.array([run.statistics("Front 90 % (m)"), run.statistics("Front 99 % (m)"), run.statistics("Potential energy (J)") / (mass * gravity)])
+    return np.array([run.statistics("Front 90 % (m)"), run.statistics("Front 99 % (m)"), run.statistics("Potential energy (J)") / (mass * 9.81)])
 
 
 def errors(run, own, exact, since):

@@ -1,9 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A layer of grains, 0.2 m deep, runs down a plane of 20 degrees that is oblique to the mesh (`prm/bed/granular_dam_break.prm`).
-The reference is shallow flow in closed form (Mangeney, Heinrich & Roche 2000), for a bed and soil of 10 degrees, and for a smooth bed with soil of 1 degree.
-The error is the RMS of the depth (volume over a width of 0.1 m) over that of the layer, at 31 places from the end of the wave in the layer to its front.
-Shallow flow has no vertical acceleration and a front without depth: the error falls as the wave becomes long, not with the cells.
-"""
+"""The text of its section: doc/studies/intro/granular_dam_break.md."""
 
 import math
 
@@ -11,6 +7,7 @@ import numpy as np
 
 from scree import closed_forms
 from scree.studies.charts import RunCurves
+from scree.studies.measures import mean_depth
 from scree.studies.study import Claim, Study, axis, product
 
 LAYER, SLOPE, ORIGIN = 0.2, math.radians(20), np.array([5, 3.35])  # m, -, m
@@ -28,9 +25,7 @@ def depth(run, time, x):
     """Over the layer's, at places along the plane, m."""
     points = run.points(time)
     along = (points.positions[:, :2] - ORIGIN) @ (math.cos(SLOPE), -math.sin(SLOPE))
-    order = np.argsort(along)
-    along, volume = along[order], np.cumsum(points.arrays["volume"].ravel()[order])
-    return np.diff(np.interp([x - LAYER / 4, x + LAYER / 4], along, volume), axis=0)[0] / (LAYER**2 / 2)
+    return mean_depth(along, points.arrays["volume"], x - LAYER / 4, x + LAYER / 4) / LAYER
 
 
 def measure(run):

@@ -1,10 +1,5 @@
-"""A saturated block of Mohr-Coulomb sand, 1 m x 0.5 m, falls on the floor with the speed of the axis and is followed for 0.3 s after the impact.
-Water is incompressible: the stop takes as long as the last cell takes to close, so that the peak of p depends on time step and cell size.
-The impulse is the part of the momentum at the touch that the block has lost 0.1 s later, beyond its weight.
-It is 1 if the block is at rest, less if it still sinks and spreads, more if it rebounds.
-Panels: cell size.
-The oscillation of p is its RMS at the end (`measures.roughness`) over rho_w g 0.5 m.
-"""
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The text of its section: doc/studies/intro/impact.md."""
 import numpy as np
 
 from scree.studies.charts import StabilityMap

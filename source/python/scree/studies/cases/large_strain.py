@@ -1,11 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Soft mud consolidates under its own weight below water (`prm/consolidation/large_strain_consolidation.prm`, to T_v = 1).
-The strain is 24 % at the base, points cross cells, and water leaves the soil.
-The error is an RMS over T_v = 0.25, 0.5, 1 and over two L2 errors: of the excess pressure in the soil over its buoyant weight, and of the heights of the rows
-of points over the final settlement.
-The reference is a finite difference solution in the material height (`source/python/scree/closed_forms.py`).
-The case has double-point water, splines, AFLIP, 4 x 4 points per cell and phase, Courant number 0.6 and no F-bar.
-"""
+"""The text of its section: doc/studies/intro/large_strain.md."""
 
 import functools
 import math
@@ -14,29 +8,14 @@ import numpy as np
 
 from scree import closed_forms
 from scree.studies.charts import WorkPrecision
-from scree.studies.precision import DEFAULTS, at_finest, costs, failed, order, ratio, table
+from scree.studies.precision import DEFAULTS, at_finest, costs, failed, methods, order, ratio, table
 from scree.studies.study import Claim, Study, axis, product
 
 MUD = closed_forms.Mud(1., closed_forms.oedometric_modulus(2e4, 0.2), 0.5, 1e-2)
 TIMES = [MUD.time(factor) for factor in (0.25, 0.5, 1.)]
 
 
-def points(number):
-    return {"Soil/Points per cell": number, "Water/Points per cell": number}
-
-
-METHODS = {
-    DEFAULTS: {},
-    "linear": {"Mesh/Basis": "linear"},
-    "standard F-bar": {"Stabilisation/F-bar": "standard"},
-    "modified F-bar": {"Stabilisation/F-bar": "modified"},
-    "2 x 2 points": points(2),
-    "3 x 3 points": points(3),
-    "6 x 6 points": points(6),
-    "FLIP": {"Transfer/Method": "FLIP"},
-    "Courant number 0.2": {"Time step/Courant number": 0.2},
-    "Courant number 0.9": {"Time step/Courant number": 0.9},
-}
+METHODS = methods("linear", "standard F-bar", "modified F-bar", "2 x 2 points", "3 x 3 points", "6 x 6 points", "FLIP", "Courant number 0.2", "Courant number 0.9")
 
 
 def mesh(h):

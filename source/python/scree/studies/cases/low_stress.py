@@ -1,32 +1,24 @@
-"""A column, as wide as high, collapses for 2 sqrt(height/g); its height is scaled from 2 m to 0.02 m and gravity from 1 to 0.01 of that of the Earth.
-The stress at its base falls from 30 kPa to 3 Pa, while the stiffness of the soil stays the same.
-Nor-Sand (loose; no stress below 1 Pa) and Mohr-Coulomb sand (cut off at 0), dry and saturated, have 8 cells over the height.
-The oscillation of p' is the time mean of `Stress oscillation`; it grows with the stiffness of the soil over its weight.
-No options are compared: all cells count as default cells.
-"""
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The text of its section: doc/studies/intro/low_stress.md."""
 import math
 
 from scree.studies.charts import StabilityMap
 from scree.studies.measures import classify, mean_oscillation
-from scree.studies.study import Claim, Study, axis, product
+from scree.studies.study import Claim, Study, Variant
 
 CASES = {("Nor-Sand", "dry"): "columns/column_loose", ("Mohr-Coulomb", "dry"): "columns/mohr_coulomb_collapse", ("Nor-Sand", "saturated"): "slopes/slope_saturated_loose",
          ("Mohr-Coulomb", "saturated"): "columns/column_saturated"}
 
 
-def with_case(variants):
-    """Each variant with the case of its soil, and lengths and times of its scale."""
-    result = []
-    for labels, *_ in variants:
-        law, pores = labels["soil"].split(", ")
-        height, gravity = labels["height"], 9.81 * labels["gravity"]
-        end = 2 * math.sqrt(height / gravity)
-        entries = {"Mesh/Upper corner": f"{2.5 * height:.10g}, {1.25 * height:.10g}", "Mesh/Cell size": height / 8, "Soil/Region": f"x < {height:g} && y < {height:g}",
-                   "Gravity": f"0, {-gravity:.10g}", "End time": end, "Output/Interval": end / 2, "Output/Statistics interval": end / 50}
-        if pores == "saturated":
-            entries.update({"Water/Points per cell": 2, "Time step/Maximum time step": end / 400})
-        result.append(variants[0]._replace(labels=labels, entries=entries, base=f"prm/{CASES[law, pores]}.prm"))
-    return result
+def variant(law, pores, part, height):
+    """The case of a soil, with lengths and times of its scale; `part`: of the gravity of the Earth."""
+    gravity = 9.81 * part
+    end = 2 * math.sqrt(height / gravity)
+    entries = {"Mesh/Upper corner": f"{2.5 * height:.10g}, {1.25 * height:.10g}", "Mesh/Cell size": height / 8, "Soil/Region": f"x < {height:g} && y < {height:g}",
+               "Gravity": f"0, {-gravity:.10g}", "End time": end, "Output/Interval": end / 2, "Output/Statistics interval": end / 50}
+    if pores == "saturated":
+        entries.update({"Water/Points per cell": 2, "Time step/Maximum time step": end / 400})
+    return Variant({"soil": f"{law}, {pores}", "gravity": part, "height": height}, entries, f"prm/{CASES[law, pores]}.prm")
 
 
 def measure(run):
@@ -60,8 +52,7 @@ STUDY = Study(title="Low stress",
               question="Do the laws work at the stress of small columns and low gravity?",
               advice="Scale the stiffness with the weight in small models; use fronts, not p' of points.",
               base="prm/columns/column_loose.prm", needs_end=False, entries={"Soil/Points per cell": 2},
-              variants=with_case(product(axis("soil", lambda _: {}, [", ".join(case) for case in CASES]), axis("gravity", lambda _: {}, [0.01, 1.]),
-                                         axis("height", lambda _: {}, [0.02, 0.1, 0.5, 2.]))),
+              variants=[variant(*case, part, height) for case in CASES for part in (0.01, 1.) for height in (0.02, 0.1, 0.5, 2.)],
               quick=lambda labels: labels["gravity"] == 1. and labels["height"] in (0.1, 2.),
               measure=measure, verdict=verdict, default={},
               chart=StabilityMap("height", "gravity", panels=["soil"], xlabel="height (m)", ylabel="gravity over 9.81 m/s²"))

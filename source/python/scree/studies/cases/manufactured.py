@@ -1,11 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A manufactured solution at large strain: in a closed box of side 1 m, points oscillate by up to 0.1 m along both axes, 0.8 to 6.4 cells, and cross cells all
-the time.
-A body force makes the motion exact; the state is that at 0.6 s (as `scenes/order_manufactured`).
-The error is the RMS over velocity and stress of their relative L2 errors over the points.
-The defaults are splines, FLIP with a PIC rate of 1 1/s, 4 x 4 points per cell, Courant number 0.6 and here no F-bar.
-The two methods with "points as fine as cells^2" have no run on the finest mesh.
-"""
+"""The text of its section: doc/studies/intro/manufactured.md."""
 
 import math
 
@@ -13,26 +7,13 @@ import numpy as np
 
 from scree.studies.cases.bar import errors, relative
 from scree.studies.charts import WorkPrecision
-from scree.studies.precision import DEFAULTS, at_finest, curve, order, ratio, table
-from scree.studies.study import Claim, Study, axis, product
+from scree.studies.precision import DEFAULTS, at_finest, curve, methods, order, ratio, table
+from scree.studies.study import Claim, Study, axis, product, transfer
 
 AMPLITUDE, MODULUS, TIME = 0.1, 1e4, 0.6  # m, Pa, s
 
-METHODS = {
-    DEFAULTS: {},
-    "linear": {"Mesh/Basis": "linear"},
-    "PIC rate 0": {"Transfer/PIC rate": 0},
-    "PIC rate 5": {"Transfer/PIC rate": 5},
-    "TPIC": {"Transfer/Method": "TPIC"},
-    "2 x 2 points": {"Soil/Points per cell": 2},
-    "3 x 3 points": {"Soil/Points per cell": 3},
-    "6 x 6 points": {"Soil/Points per cell": 6},
-    "Courant number 0.3": {"Time step/Courant number": 0.3},
-    "Courant number 0.9": {"Time step/Courant number": 0.9},
-    "modified F-bar": {"Stabilisation/F-bar": "modified"},
-}
-
-
+METHODS = methods("linear", "PIC rate 0", "PIC rate 5", {"TPIC": transfer("TPIC")}, "2 x 2 points", "3 x 3 points", "6 x 6 points", "Courant number 0.3",
+                  "Courant number 0.9", "modified F-bar", without="Water")
 DENSER = {"points as fine as cells^2": {}, "TPIC, points as fine as cells^2": METHODS["TPIC"]}
 
 

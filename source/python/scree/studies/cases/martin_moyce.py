@@ -1,10 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A column of water, a = 1 m wide and 2 a high, collapses on a dry smooth floor, against the experiment with a = 57 mm (Martin & Moyce 1952, n^2 = 2).
-Front: Z = x/a over T = t sqrt(2 g/a), with x of the farthest point of water.
-Height: H = y/(2 a) at the wall over Y = t sqrt(g/a), with y of the highest water within a/10 of the wall.
-The gate, the wetting and the friction of floor and walls of the experiment are not modelled.
-A delay of the motion is fitted to the front by least squares; the residuals (RMS of computed minus measured) after it are given separately.
-"""
+"""The text of its section: doc/studies/intro/martin_moyce.md."""
 import math
 
 import numpy as np

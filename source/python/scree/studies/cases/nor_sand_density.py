@@ -1,7 +1,5 @@
-"""A column of Nor-Sand, 1 m x 1 m with cells of 0.1 m, collapses for 1 s, from very dense to very loose, with each stabilisation, dry and saturated.
-The critical state at the mean pressure of the column, 5 kPa, has a specific volume of 1.78; v_0 = 1.5 is denser than any sand.
-The oscillation of p' is the time mean of `Stress oscillation`.
-"""
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The text of its section: doc/studies/intro/nor_sand_density.md."""
 from scree.studies.charts import StabilityMap
 from scree.studies.measures import classify, mean_oscillation
 from scree.studies.study import Claim, Study, axis, product, transfer

@@ -1,11 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Right after each benchmark, `doc/studies/kernel.cc` is run on the same core: the bare method for one elastic block.
-The ratio to it depends little on the machine.
-The other codes were measured once on a machine of the same kind (`doc/studies/reference/peers.csv`), built from public sources with their own release flags,
-with 16 points per cell in 2D.
-Scree has 16 points per cell in 2D and 8 in 3D.
-Its water has points of its own: points are those of soil and water together, while each point of the other code carries both.
-"""
+"""The text of its section: doc/studies/intro/peers.md."""
 
 import math
 import subprocess

@@ -1,9 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""FLIP relaxes the point velocity to the grid velocity at its PIC rate (1/s), the other transfers in every time step.
-Three scenes: an elastic bar that vibrates, and columns of Mohr-Coulomb soil and of Nor-Sand, 1 m x 1 m with cells of 0.1 m, that collapse for 1 s.
-The oscillation of p' is the time mean of `Stress oscillation`, of the columns only.
-Default: FLIP at 1/s; `prm/columns/column_dense.prm` has 5/s.
-"""
+"""The text of its section: doc/studies/intro/pic_courant.md."""
 
 import math
 

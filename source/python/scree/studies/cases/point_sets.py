@@ -1,11 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Saturated slopes of dense and loose Nor-Sand and of Mohr-Coulomb soil over 12 s, crest and height 2 m, 45 degrees, cells of 0.05 m, in air on a rough base.
-Water has points of its own (double-point) or is on the points of the soil (single-point).
-Xie, Navas & Lopez-Querol 2024 give neither geometry nor K0, which are assumed here.
-They report that single-point is unstable and too stiff with Nor-Sand, and that double-point takes 14 to 16 % longer.
-Picture: soil grey, water coloured by the pore pressure.
-The oscillation of p is the mean over time; times per time step are those of the first 0.06 s, in which all runs do the same.
-"""
+"""The text of its section: doc/studies/intro/point_sets.md."""
 import math
 import re
 

@@ -1,16 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A saturated column of height H is computed with soil and water for k from 1e-12 to 1e-1 m/s, and with simpler models, until 4 sqrt(H/g).
-It **collapses** in air, collapses **submerged** under 1.2 H of water (both Mohr-Coulomb soil, 30 degrees), or is elastic and **loaded** by a growing pressure.
-
-- *Drained*, one phase: dry soil; under water soil of the buoyant weight; for the load soil of the saturated density.
-- *Undrained*: no water moves through the soil, which is the run with k = 1e-12 m/s.
-- *Total stress*: undrained soil as one phase, strength c = (1 + K0)/2 sigma_v' sin(phi) for each row of cells, Poisson's ratio 0.49.
-
-The error of a model is the largest deviation from the coupled run at t = 1, 2, 3, 4 sqrt(H/g): of the front of 90 % of the soil over its position, or of the
-settlement over the final drained one.
-G = (H^2/c_v)/sqrt(H/g), with c_v = k E_oed/(rho_w g), is drainage time over motion time.
-`--advise` takes the undrained model above 414, on the safe side ([Running](../../running.md#dimensionless-numbers)).
-"""
+"""The text of its section: doc/studies/intro/regimes.md."""
 import math
 
 import numpy as np
@@ -32,9 +21,6 @@ COLLAPSE, LOADED, DRY = "prm/columns/column_saturated.prm", "prm/consolidation/t
 SIZES = [(1., 1e6), (0.2, 1e6), (5., 1e6), (1., 1e7)]  # H, m; Young's modulus, Pa
 CONDUCTIVITIES = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6, 1e-12]
 SUBMERGED = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-12]
-
-
-# Cases ----------------------------------------------------------------------------------------------------------------
 
 
 def group(height, young, conductivity):
@@ -120,9 +106,6 @@ def measure(run):
         values = run.statistics("Front 90 % (m)") / height
     samples = np.interp(np.array(TIMES) * math.sqrt(height / GRAVITY), run.time, values)
     return {"group": group(height, young, k) if k else math.nan, **{f"at {time}": value for time, value in zip(TIMES, samples)}}
-
-
-# Verdict --------------------------------------------------------------------------------------------------------------
 
 
 def values(row):

@@ -1,17 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Columns (1 m x 1 m) and slopes (crest 2 m, height 2 m, 45 degrees) of Nor-Sand, at rest, over the cell size.
-The front is the x below which 90 or 99 % of the mass lies; the rest is a tongue thinner than a cell.
-Recommended: a base with friction of the soil at critical state in simple shear, 22.3 degrees, and for dry soil FLIP with a PIC rate of 1/s.
-Slopes with water use TPIC, which has no such rate.
-The fixed base is that of `prm/columns/column_*.prm` and `prm/slopes/slope_*.prm`, with a PIC rate of 5/s.
-
-Some choices were made after results were there: the quantile of 90 %, base and PIC rate (seen on the dense column), 3 x 3 points in the dry dense slope
-and the fourth size of the saturated ones.
-The last changes at 90 % are therefore no test of the treatment on new cases.
-
-Value at h = 0: mean of the least-squares fits with errors in proportion to h and to h^2, with half their distance and the RMS deviation of the worse one.
-Times: columns 1.5 s, slopes 3 s (dry), 5 s (loose), 6 s (permeable, k = 5e-2 m/s) and 9 s (dense, k = 5e-3 m/s, which still slides).
-"""
+"""The text of its section: doc/studies/intro/run_out.md."""
 
 import math
 
@@ -19,7 +7,7 @@ import numpy as np
 
 from scree.pictures.tables import name_lines
 from scree.studies.charts import Curves
-from scree.studies.measures import grouped, lost_energy
+from scree.studies.measures import grouped, lost_energy, mean_depth
 from scree.studies.study import Claim, Study, Variant
 
 FIXED, FRICTION, LOW_PIC = "fixed", "friction", "friction, PIC rate 1/s"
@@ -29,13 +17,10 @@ COLUMN, SLOPE, SATURATED, PERMEABLE = "column", "slope", "saturated slope", "per
 FILES = {COLUMN: "columns/column", SLOPE: "slopes/slope", SATURATED: "slopes/slope_saturated", PERMEABLE: "slopes/slope_saturated"}
 BOXES = {COLUMN: (4.5, 1.5), SLOPE: (10., 2.5), SATURATED: (12., 2.5), PERMEABLE: (12., 2.5)}  # m
 TIMES = {COLUMN: {"dense": 1.5, "loose": 1.5}, SLOPE: {"dense": 3., "loose": 3.}, SATURATED: {"dense": 9., "loose": 5.}, PERMEABLE: {"dense": 6.}}  # s
-CELLS_PER_METRE = {(COLUMN, "dense", FIXED): (10, 14, 20, 28), (COLUMN, "loose", FIXED): (10, 14, 20, 28),
-                   (COLUMN, "dense", FRICTION): (10, 14, 20, 28), (COLUMN, "loose", FRICTION): (10, 14, 20, 28),
-                   (COLUMN, "dense", LOW_PIC): (10, 14, 20, 28), (COLUMN, "loose", LOW_PIC): (10, 14, 20, 28),
-                   (SLOPE, "dense", FRICTION): (10, 14, 20, 28), (SLOPE, "loose", FRICTION): (10, 14, 20),
-                   (SLOPE, "dense", LOW_PIC): (10, 14, 20, 28), (SLOPE, "loose", LOW_PIC): (10, 14, 20, 28),
-                   (SATURATED, "loose", FRICTION): (7, 10, 14, 20), (SATURATED, "dense", FRICTION): (7, 10, 14, 20),
-                   (PERMEABLE, "dense", FRICTION): (7, 10, 14, 20)}
+FOUR, WET = (10, 14, 20, 28), (7, 10, 14, 20)
+CELLS_PER_METRE = {**{(COLUMN, soil, treatment): FOUR for treatment in TREATMENTS for soil in ("dense", "loose")},
+                   (SLOPE, "dense", FRICTION): FOUR, (SLOPE, "loose", FRICTION): FOUR[:3], (SLOPE, "dense", LOW_PIC): FOUR, (SLOPE, "loose", LOW_PIC): FOUR,
+                   (SATURATED, "loose", FRICTION): WET, (SATURATED, "dense", FRICTION): WET, (PERMEABLE, "dense", FRICTION): WET}
 RECOMMENDED = {COLUMN: LOW_PIC, SLOPE: LOW_PIC, SATURATED: FRICTION, PERMEABLE: FRICTION}
 QUANTILES = (80, 90, 95, 99, 99.5)
 FRONT, TIP = "front 90 % (m)", "front 99 % (m)"
@@ -51,10 +36,9 @@ def front(points, percent):
 
 def front_of_depth(points, depth, width=0.1):
     """Largest x around which the soil, averaged over `width`, is `depth` deep, m."""
-    order = np.argsort(points.positions[:, 0])
-    x, volume = points.positions[order, 0], np.cumsum(points.arrays["volume"][order])
-    centres = np.arange(width / 2, x[-1] + width, width / 20)
-    depths = (np.interp(centres + width / 2, x, volume) - np.interp(centres - width / 2, x, volume, left=0.)) / width
+    x = points.positions[:, 0]
+    centres = np.arange(width / 2, x.max() + width, width / 20)
+    depths = mean_depth(x, points.arrays["volume"], centres - width / 2, centres + width / 2)
     return centres[np.flatnonzero(depths >= depth)[-1]]
 
 

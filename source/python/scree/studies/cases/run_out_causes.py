@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The dense dry column of the section above, 1 m x 1 m, with cells of 0.1 m and of 0.05 m; one thing at a time is changed.
-It has 3 x 3 points per cell, FLIP with a PIC rate of 5/s, and a base that is fixed or has the friction of the soil, 22.3 degrees.
-The bars show by how much the front advances from the larger to the smaller cells.
-"""
+"""The text of its section: doc/studies/intro/run_out_causes.md."""
 
 from scree.studies.cases import run_out
 from scree.studies.charts import Curves

@@ -1,25 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Does the run-out of saturated soil have a limit as the cells become smaller, and is it the same for all transfers and bases?
-
-Plan, fixed before the runs:
-
-- Column: 1 m x 1 m of saturated Mohr-Coulomb soil (30 degrees, k = 5e-3 m/s) in air, 4 s, on a fixed base and on one with the friction of the soil,
-  26.6 degrees (tan = sin 30). 10, 14, 20, 28 and 40 cells over the height.
-- Slope: loose Nor-Sand, crest 2 m, height 2 m, 45 degrees, k = 5e-3 m/s, 5 s, on a base of 22.3 degrees. 14, 20, 28 and 40 cells over the height.
-- Transfers: TPIC, AFLIP, FLIP with a PIC rate of 1 1/s. 3 x 3 points of soil and of water per cell. Boxes of 12 m and 14 m.
-- Quantities: fronts of 90 and 99 % of the mass of the soil; front where the soil is 0.02 H deep (over a width of 0.05 H); height at the axis.
-
-Bounds:
-
-- From 20 to 40 cells over the height the front of 99 % changes by less than 3 %, with the transfer of the cases (TPIC).
-- The limits of the three transfers (front of 99 %) are within 3 % of each other.
-
-Changed after the first results: the columns' box and time, which were 6 m and 3 s; the front reached the far wall.
-Added after the results: the limits of the front of 90 %.
-
-Value at h = 0: the mean of the least-squares fits with errors in proportion to h and to h^2.
-Its uncertainty is half their distance and the RMS deviation of the worse one.
-"""
+"""The text of its section: doc/studies/intro/saturated_run_out_limits.md."""
 
 import numpy as np
 

@@ -1,12 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A saturated slope of loose sand slides (`prm/slopes/slope_saturated_loose.prm`, the first 1.5 s).
-There is no exact solution.
-The error is the distance to a run of FLIP with h = 0.05 m and 3 x 3 points per cell, formed as in [the dry slope](run_out.md#dry-slope-error-over-cost).
-That run was chosen after the first results, as the fronts of FLIP are the farthest on every mesh: FLIP is the nearest to it in part by construction.
-The defaults of the chart are the entries of the case: double-point water, AFLIP, splines, 4 x 4 points per cell and phase, modified F-bar, Courant number
-0.6 and time steps of at most 1e-3 s.
-The case keeps 4 x 4 points: with 3 x 3 its front of 99 % is 0.51 % farther at 2 s, bound 0.5 % (h = 0.05 m).
-"""
+"""The text of its section: doc/studies/intro/saturated_slope.md."""
 
 import math
 
@@ -14,27 +7,14 @@ import numpy as np
 
 from scree.studies.cases import dry_slope
 from scree.studies.charts import WorkPrecision
-from scree.studies.precision import DEFAULTS, LimitFit, at_finest, curve, order, ratio, table
+from scree.studies.precision import DEFAULTS, LimitFit, at_finest, curve, methods, order, ratio, table
 from scree.studies.study import Claim, Study, axis, product
 
 
-def points(number):
-    return {"Soil/Points per cell": number, "Water/Points per cell": number}
-
-
-METHODS = {
-    DEFAULTS: {},
-    "single-point": {"Water/Point sets": "single"},
-    "no F-bar": {"Stabilisation/F-bar": "none"},
-    "2 x 2 points": points(2),
-    "3 x 3 points": points(3),
-    "FLIP": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 5},
-    "FLIP, PIC rate 20": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 20},
-    "FLIP, 3 x 3 points": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 5, **points(3)},
-    "tolerance 1e-3": {"Water/Pressure/Relative tolerance": 1e-3},
-    "Courant number 0.3": {"Time step/Courant number": 0.3},
-    "Courant number 0.9": {"Time step/Courant number": 0.9},
-}
+FLIP = {"Transfer/Method": "FLIP", "Transfer/PIC rate": 5}
+METHODS = methods("single-point", "no F-bar", "2 x 2 points", "3 x 3 points",
+                  {"FLIP": FLIP, "FLIP, PIC rate 20": {**FLIP, "Transfer/PIC rate": 20}, "FLIP, 3 x 3 points": {**FLIP, **methods("3 x 3 points")["3 x 3 points"]}},
+                  "tolerance 1e-3", "Courant number 0.3", "Courant number 0.9")
 TIP = "front 99 % at the end, m"
 REFERENCE = 0.05  # m, cells of the reference
 HYDROSTATIC = 1000 * 9.81 * 2  # p under the crest, 2 m high, at the start, Pa
@@ -105,7 +85,7 @@ STUDY = Study(
     base="prm/slopes/slope_saturated_loose.prm", entries=dry_slope.STUDY.entries,
     variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", "Mesh/Cell size", [1 / 5, 2 / 15]))
     + product(axis("method", METHODS.__getitem__, FINEST), axis("h", "Mesh/Cell size", [1 / 10])),
-    reference={"Mesh/Cell size": REFERENCE, **METHODS["FLIP, 3 x 3 points"]}, quick_reference={"Mesh/Cell size": 2 / 15, **points(3)}, default={"method": DEFAULTS},
+    reference={"Mesh/Cell size": REFERENCE, **METHODS["FLIP, 3 x 3 points"]}, quick_reference={"Mesh/Cell size": 2 / 15, **METHODS["3 x 3 points"]}, default={"method": DEFAULTS},
     quick=lambda labels: labels["h"] > 0.19 and labels["method"] in (DEFAULTS, "single-point", "3 x 3 points", "FLIP"),
     measure=measure, verdict=verdict,
     table=lambda rows: table(rows, [method for method in METHODS if method.startswith("FLIP")]),

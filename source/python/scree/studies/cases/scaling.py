@@ -1,13 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""1. Messages, bytes and collectives per time step for 1 to 64 ranks, counted by `doc/studies/count_mpi.c`, without start-up and output.
-   With more ranks than cores only these numbers are meaningful, not the times.
-2. Wall time on two ranks over that on one, each on a core of its own; the dam break with 12 800 and 205 000 points.
-3. Iterations of the pressure solve: a dam break with finer and finer cells.
-
-The model for more cores: time per time step = (ns per point of one core) x (points/rank) x imbalance + communication.
-Communication is (messages x 1.5 us + bytes/(10 GB/s)) of the busiest rank + collectives x 1.5 us x log2(ranks).
-These are numbers of a common cluster network, not measured here; the imbalance is taken as 1.1.
-"""
+"""The text of its section: doc/studies/intro/scaling.md."""
 
 import math
 import re

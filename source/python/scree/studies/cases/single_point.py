@@ -1,10 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A saturated block of Mohr-Coulomb soil, 1 m x 0.6 m, is thrown along its base against a wall two metres away, and splashes up.
-Single-point water fills the pores at any porosity: where the grains part, it creates water.
-The error is the largest change of the mass of the water, with the part that left the box, over its mass at the start.
-The oscillation of p is its RMS (time mean) over the mean p at the start.
-The impact itself causes oscillation, and grains may separate, which counts as J out of bounds all the same.
-"""
+"""The text of its section: doc/studies/intro/single_point.md."""
 
 import math
 

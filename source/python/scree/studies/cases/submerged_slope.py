@@ -1,10 +1,5 @@
-"""A slope of Mohr-Coulomb sand (friction 30 degrees, no cohesion, crest 0.6 m) under still water, for three water levels and conductivities from gravel to
-clay, h = 0.1 m.
-It settles for at most 1 s with damping and is then released for 1 s.
-The gain is over the work of the weight of the soil along a centimetre.
-The error is 1 if the front of a slope below the friction angle moves by a millimetre, or if a steeper one stands (soil slower than 5 mm/s), else 0.
-No options are compared: all cells count as default cells.
-"""
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The text of its section: doc/studies/intro/submerged_slope.md."""
 import math
 
 import numpy as np

@@ -1,9 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Terzaghi's consolidation (`prm/consolidation/terzaghi.prm`) with a tenth of the load of the case, so that the settlement changes p/q by less than 5e-4.
-The error is the RMS of the L2 errors of p/q over the water points at T_v = 0.1, 0.5 and 1, against the series.
-The CSV also has the error against the solution with inertia (`source/python/scree/closed_forms.py`) and that of the degree of consolidation.
-The case has double-point water, splines, AFLIP, 4 x 4 points per cell and phase, Courant number 0.6 and a relative tolerance of the pressure of 1e-4.
-"""
+"""The text of its section: doc/studies/intro/terzaghi.md."""
 
 import math
 
@@ -11,7 +7,7 @@ import numpy as np
 
 from scree import closed_forms
 from scree.studies.charts import WorkPrecision
-from scree.studies.precision import DEFAULTS, costs, order, ratio, table
+from scree.studies.precision import DEFAULTS, costs, methods, order, ratio, table
 from scree.studies.study import ROOT, Claim, Study, axis, prm_files, product
 
 FACTORS = (0.1, 0.5, 1.)
@@ -22,19 +18,8 @@ COLUMN = closed_forms.Terzaghi(1., 100., closed_forms.oedometric_modulus(float(E
                                float(ENTRIES["Water/Hydraulic conductivity"]))
 GRAIN_DENSITY, POROSITY = float(ENTRIES["Soil/Grain density"]), float(ENTRIES["Soil/Initial porosity"])
 
-LINEAR, SINGLE = {"Mesh/Basis": "linear"}, {"Water/Point sets": "single"}
-METHODS = {
-    DEFAULTS: {},
-    "single-point": SINGLE,
-    "linear": LINEAR,
-    "linear, single-point": {**LINEAR, **SINGLE},
-    "Courant number 0.2": {"Time step/Courant number": 0.2},
-    "Courant number 0.9": {"Time step/Courant number": 0.9},
-    "2 x 2 points": {"Soil/Points per cell": 2, "Water/Points per cell": 2},
-    "3 x 3 points": {"Soil/Points per cell": 3, "Water/Points per cell": 3},
-    "tolerance 1e-3": {"Water/Pressure/Relative tolerance": 1e-3},
-    "tolerance 1e-9": {"Water/Pressure/Relative tolerance": 1e-9},
-}
+METHODS = methods("single-point", "linear", {"linear, single-point": {"Mesh/Basis": "linear", "Water/Point sets": "single"}}, "Courant number 0.2",
+                  "Courant number 0.9", "2 x 2 points", "3 x 3 points", "tolerance 1e-3", "tolerance 1e-9")
 
 
 def mesh(h):

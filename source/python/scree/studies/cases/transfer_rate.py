@@ -1,15 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""AFLIP relaxes the point velocity to the grid velocity at the rate alpha sqrt(g/h); compared with FLIP at 1/s and TPIC in nine scenes.
-These are dry slope and column, saturated slopes of loose and dense sand, dam break, sloshing, and a Mohr-Coulomb column; the column also ten times as
-stiff, and 100 times as long.
-Numerical dissipation is over the released energy (sloshing: over that of the wave), oscillations are means over time.
-The penalty of a transfer is the worst of its ratios to the other transfers, over scenes, cells and three measures.
-The measures are dissipation (below 0.5 %: that much) and oscillation of p and of p' (below 0.02: that much).
-
-Against the better one of FLIP and TPIC in each measure, which was fixed before the runs, no alpha is best.
-Alpha was therefore chosen after the runs, against the transfer of the cases: FLIP in dry soil and TPIC with water.
-The runs precede the present motion of water points, with the porosity of their own place.
-"""
+"""The text of its section: doc/studies/intro/transfer_rate.md."""
 
 import math
 

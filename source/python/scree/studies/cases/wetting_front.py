@@ -1,13 +1,5 @@
-"""0.2 m of water stand on 0.5 m of dry elastic sand and sink in, without capillary suction.
-The reference has a sharp front with p = 0, saturated soil above it, and inertia and elasticity as in the equations of the program (`elastic_front`).
-Without inertia and in rigid soil it is that of Green & Ampt 1911: n dz/dt = k (h + z)/z with h = h_0 - n z.
-In rigid soil with inertia, (z + n h) u' = g (h + z) - (1 - n^2) u^2/2 - g (n/k) u z with u = dz/dt (`rigid_front`); energy is conserved but for the drag.
-The sand settles by 5 mm under the pond, 3.5 % of the fall.
-Runs end when z is 0.3 m by Green & Ampt.
-
-The error is that of the fall of the centre of mass of the water, over that of the reference.
-The oscillation of p is its RMS at the end (`measures.roughness`) over rho_w g h_0.
-"""
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The text of its section: doc/studies/intro/wetting_front.md."""
 import functools
 
 import numpy as np
