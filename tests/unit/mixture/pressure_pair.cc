@@ -70,11 +70,12 @@ public:
     for (const unsigned int node : pores.active_nodes())
       {
         const Point<dim> x = grid.node_position(node);
-        // Two masses and their drag, soil alone, water alone.
+        // Two masses and their drag, soil alone, water alone, water that does not see the grains of the soil beside it.
         const double kind = pattern(x), n = kind < -0.5 ? 0. : kind > 0.5 ? 1. : 0.7 + 0.2 * kind;
+        const bool has_soil = n < 1. || kind > 0.7;
         const DragMobility mobility =
-            drag_mobility(n < 1. ? 1.5 + kind : 0., n > 0. ? 1. + pattern(2. * x) / 2. : 0., 10.);
-        nodes.all.push_back({ node, n, n < 1., mobility, PressedNode<dim>::free });
+            drag_mobility(has_soil ? 1.5 + kind : 0., n > 0. ? 1. + pattern(2. * x) / 2. : 0., n < 1. ? 10. : 0.);
+        nodes.all.push_back({ node, n, has_soil, mobility, PressedNode<dim>::free });
         pores[node][PoreField<dim>::grain_fraction] = 1. - n;
         for (NodalField<dim> *field : { &soil_field, &water_field })
           (*field)[node][NodalField<dim>::mass] = 1.;
@@ -280,20 +281,21 @@ void test(const std::string &basis, const double volume, const std::vector<doubl
              name + "q.(S p) - p.(S q)");
     }
 
-  // A traction of 1 along an axis at one row, of one rank after the other: its own flow is the diagonal.
+  // A traction of 1 along an axis at one row of soil, of one rank after the other: its own flow is the diagonal.
   scene.rows.set_mobilities(scene.schur.mobilities());
-  const unsigned int n_rows = scene.rows.all.size();
-  first                     = 0.;
+  const unsigned int n_rows = scene.rows.all.size(), most_rows = Utilities::MPI::max(n_rows, MPI_COMM_WORLD);
+  first = 0.;
   for (unsigned int rank = 0; rank < Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD); ++rank)
-    {
-      typename GroundRows<dim>::Vectors tractions(n_rows);
-      const bool is_own = rank == Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) && n_rows > 0;
-      if (is_own)
-        tractions[0][0] = 1.;
-      scene.schur.vmult(s_first, flows_first, first, tractions);
-      if (is_own)
-        expect(flows_first[0][0] / scene.rows.all[0].diagonal, 1., 1e-11, name + "flow of a row over the diagonal");
-    }
+    for (unsigned int k = 0; k < std::min(most_rows, 40u); k += 2)
+      {
+        typename GroundRows<dim>::Vectors tractions(n_rows);
+        const bool is_own = rank == Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) && k < n_rows;
+        if (is_own)
+          tractions[k][0] = 1.;
+        scene.schur.vmult(s_first, flows_first, first, tractions);
+        if (is_own)
+          expect(flows_first[k][0] / scene.rows.all[k].diagonal, 1., 1e-11, name + "flow of a row over the diagonal");
+      }
 
   // The preconditioner of the rows, with friction at some: symmetric, and the inverse up to 1 (Gauss-Seidel).
   for (unsigned int k = 0; k < n_rows; ++k)
