@@ -500,15 +500,18 @@ namespace scree
           writer.line("water points",
                       (choice.sets == PointSets::double_point ? "double: " : "single: ") + choice.reason);
         }
-      const double size       = law.gap.empty() && law.remedy.empty()
-                                    ? cell_size_for(advice.grid, scene.height, law.cells_over_height(advice.accuracy))
-                                    : scene.cell_size;
+      constexpr double fewest = 10.; // cells over the height, which the motion needs
+      const double cells      = law.gap.empty() && law.remedy.empty()
+                                    ? std::max(fewest, law.cells_over_height(advice.accuracy))
+                                : scene.is_layer ? SoilMotion<2>::least_cells
+                                                 : 0.;
+      const bool is_as_now    = (!law.gap.empty() || !law.remedy.empty()) && scene.height >= cells * scene.cell_size;
+      const double size       = is_as_now ? scene.cell_size : cell_size_for(advice.grid, scene.height, cells);
       const std::string error = "error up to about " + rounded(law.error(scene.height / scene.cell_size));
       writer.line("cell size",
                   rounded(size) + " m, H/h = " + rounded(scene.height / size) +
-                      (!law.gap.empty()     ? " as now: the error is not known"
-                       : law.remedy.empty() ? " (now " + rounded(scene.cell_size) + " m: " + error + ")"
-                                            : " as now: " + error));
+                      (is_as_now ? " as now: " : " (now " + rounded(scene.cell_size) + " m: ") +
+                      (!law.gap.empty() ? "the error is not known" : error) + (is_as_now ? "" : ")"));
       if (!law.gap.empty())
         writer.line("error",
                     "not known: " + law.gap +

@@ -157,7 +157,7 @@ void test_resolution()
 
   GridParameters grid = grid_box(0, { 10, 2.5 }, 0.05);
   for (const auto &[cells, over_height] :
-       std::vector<std::pair<double, double>>{ { 1, 10.4 }, { 20, 20 }, { 46, 46.4 }, { 115, 115.2 } })
+       std::vector<std::pair<double, double>>{ { 10, 10.4 }, { 20, 20 }, { 46, 46.4 }, { 115, 115.2 } })
     {
       const double size = cell_size_for(grid, 2, cells);
       expect(2 / size, over_height, 1e-9, "cells over the height, at least " + std::to_string(cells));
