@@ -423,7 +423,10 @@ namespace scree
     else if (scene.has_soil && scene.is_elastic)
       law.gap = gap_of_elastic_law(scene);
     else if (scene.is_layer)
-      law.gap = "its law is that of heaps, and here soil runs out on a bed";
+      {
+        law.gap    = "its law is that of heaps, and here soil runs out on a bed";
+        law.remedy = "";
+      }
     return law;
   }
 

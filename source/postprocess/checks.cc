@@ -158,7 +158,7 @@ namespace scree
       if (!body.is_rigid)
         {
           look_at_dilation(body);
-          if (g > 0.)
+          if (g > 0. && walls != nullptr)
             look_at_walls(body);
         }
   }
@@ -174,7 +174,7 @@ namespace scree
     // Soil within two cells of a wall at the start belongs to it: it may slide along it and bulge.
     const double h = grid.cell_size();
     for (unsigned int face = 0; face < 2 * dim; ++face)
-      if (const unsigned int a = face / 2; a != upward && !walls.is_open(face))
+      if (const unsigned int a = face / 2; a != upward && !walls->is_open(face))
         {
           const bool is_lower   = face % 2 == 0;
           const double at       = (is_lower ? grid.lower_corner() : grid.upper_corner())[a];
@@ -284,7 +284,10 @@ namespace scree
         "deepest point " + deepest + " m below the bed",
         short_text(bounds[1] * grid.cell_size()) + " m");
     add(lost, has_soil, "points of soil lost " + short_text(worst[lost].found), "0");
-    add(wall, has_weight, "soil has come " + short_text(worst[wall].found) + " m to a wall of the box", "0");
+    add(wall,
+        has_weight && walls != nullptr,
+        "soil has come " + short_text(worst[wall].found) + " m to a wall of the box",
+        "0");
     add(speed,
         true,
         "fastest point " + fastest + " times the largest 99.9 % quantile of the speeds",

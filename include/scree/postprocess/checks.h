@@ -16,10 +16,11 @@ namespace scree
   public:
     /// All are kept by reference.
     /// @param bed null: none
+    /// @param walls of the box; null: they are structures that soil may hit
     RunChecks(const BackgroundGrid<dim> &grid,
               const dealii::Tensor<1, dim> &gravity,
               const DiscreteLevelSet<dim> *bed,
-              const BoundaryConditions<dim> &walls,
+              const BoundaryConditions<dim> *walls,
               RunFolder &folder)
         : grid(grid)
         , gravity(gravity)
@@ -101,7 +102,7 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const dealii::Tensor<1, dim> gravity;
     const DiscreteLevelSet<dim> *bed;
-    const BoundaryConditions<dim> &walls;
+    const BoundaryConditions<dim> *walls;
     RunFolder &folder;
     double usual_speed_of_soil = 0., usual_speed_of_water = 0.; // largest 99.9 % quantiles so far, m/s
     Suspects now, worst;

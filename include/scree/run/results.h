@@ -52,7 +52,11 @@ namespace scree
                { parameters.end_time, parameters.output.interval },
                scene.grid,
                folder)
-        , checks(scene.grid, scene.forcing.gravity(), scene.bed.get(), scene.walls, folder)
+        , checks(scene.grid,
+                 scene.forcing.gravity(),
+                 scene.bed.get(),
+                 parameters.probes.wall_forces ? nullptr : &scene.walls,
+                 folder)
         , balances(scene.grid, scene.forcing)
         , files(scene.grid.communicator())
     {

@@ -174,7 +174,7 @@ void test_place()
                  "a negative strength");
   expect_refusal([&] { values.set(Point<2>(1., -1e3), 0., internal); },
                  entry +
-                     "-1000 m is 2.011e+06. Beyond 215517, strength falls faster with strain than elastic stress can.",
+                     "-1000 m is 2011000. Beyond 215517.241, strength falls faster with strain than elastic stress can.",
                  "a strength that falls too fast");
 }
 

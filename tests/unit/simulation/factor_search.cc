@@ -25,7 +25,7 @@ void search(const SafetyParameters &safety,
       FactorBracket bracket;
       const auto try_factor = [&](const double factor) {
         tried << (n == 0 ? "" : " ") << factor;
-        const TrialEnd end = ++n == n_trials           ? TrialEnd::undecided
+        const TrialEnd end = ++n == n_trials             ? TrialEnd::undecided
                              : factor > factor_of_safety ? TrialEnd::fails
                                                          : TrialEnd::rests;
         bracket.include(factor, end);
