@@ -3,6 +3,7 @@
 #define scree_postprocess_checks_h
 
 #include <scree/boundary/body_forces.h>
+#include <scree/boundary/boundary_conditions.h>
 #include <scree/postprocess/statistics.h>
 
 #include <boost/serialization/array.hpp>
