@@ -185,9 +185,8 @@ namespace scree
   };
 
   /// The law of a scene's kind: run-out of plastic soil, elastic soil under a constant load, free water that falls. The
-  /// run-out of undrained soil, and of soil with water on a base that holds it, has not converged; that of thin soil on a
-  /// bed was not measured. Other scenes have
-  /// lengths of their own. Where there is no law, `gap` says why.
+  /// run-out of undrained soil, and of soil with water on a base that holds it, has not converged; that of thin soil on
+  /// a bed was not measured. Other scenes have lengths of their own. Where there is no law, `gap` says why.
   ErrorLaw error_law_of(const SceneNumbers &scene);
 
   /// Largest cell size, m, that divides the box and gives at least `cells` over `height`, m.
