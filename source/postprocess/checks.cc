@@ -171,8 +171,9 @@ namespace scree
     for (unsigned int a = 0; a < dim; ++a)
       if (std::abs(gravity[a]) > std::abs(gravity[upward]))
         upward = a;
-    // Soil within two cells of a wall at the start belongs to it: it may slide along it and bulge.
-    const double h = grid.cell_size();
+    // Soil beside a wall may slide down along it: only its way to the wall, or up it, shows that the wall stops it.
+    const double h          = grid.cell_size();
+    const Tensor<1, dim> up = -gravity / gravity.norm();
     for (unsigned int face = 0; face < 2 * dim; ++face)
       if (const unsigned int a = face / 2; a != upward && !walls->is_open(face))
         {
@@ -181,10 +182,11 @@ namespace scree
           const std::string end = std::string(", at the wall ") + "xyz"[a] + " = " + number_text(at) + " m (\"" +
                                   (is_lower ? "Lower" : "Upper") + " corner\")";
           for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
-            const double start    = std::abs(point.properties[body.layout.start + a] - at);
+            const Point<dim> start(vector_of<dim>(point.properties + body.layout.start));
             const double distance = std::abs(point.location[a] - at);
-            if (distance < h && start > 2. * h)
-              suspect(wall, start - distance, start - distance, [&] { return name() + end; });
+            const double way      = std::max(std::abs(start[a] - at) - distance, up * (point.location - start));
+            if (distance < h && way > h)
+              suspect(wall, way, way, [&] { return name() + end; });
           });
         }
   }
@@ -257,7 +259,7 @@ namespace scree
       case stress:
         return which + "p' and the vertical stress reach " + found + " Pa, " + value + " times rho g H of all the soil";
       case wall:
-        return which + "it has come " + found + " m to this wall, which cuts off the run-out: move the corner";
+        return which + "it has come " + found + " m to this wall or up it, which cuts off the run-out: move the corner";
       default:
         return when + found + " points of soil left the box";
       }

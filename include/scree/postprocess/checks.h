@@ -60,7 +60,7 @@ namespace scree
       shrinkage, ///< V_0/V of soil
       dilation,  ///< V/V_0 of soil in contact, mean of a cell
       stress, ///< p' or vertical stress, the smaller, over rho g H of the soil, H from its lowest to its highest point
-      wall,   ///< way to a closed side wall, m, of soil that started more than two cells from it and is within one
+      wall,   ///< way to a closed side wall or up it, m, of soil within a cell of it, if above a cell
       lost,   ///< points of soil that left the box
       n_checks
     };
