@@ -500,15 +500,18 @@ namespace scree
           writer.line("water points",
                       (choice.sets == PointSets::double_point ? "double: " : "single: ") + choice.reason);
         }
-      const double size       = law.gap.empty() && law.remedy.empty()
-                                    ? cell_size_for(advice.grid, scene.height, law.cells_over_height(advice.accuracy))
-                                    : scene.cell_size;
+      constexpr double fewest = 10.; // cells over the height, which the motion needs
+      const double cells      = law.gap.empty() && law.remedy.empty()
+                                    ? std::max(fewest, law.cells_over_height(advice.accuracy))
+                                : scene.is_layer ? SoilMotion<2>::least_cells
+                                                 : 0.;
+      const bool is_as_now    = (!law.gap.empty() || !law.remedy.empty()) && scene.height >= cells * scene.cell_size;
+      const double size       = is_as_now ? scene.cell_size : cell_size_for(advice.grid, scene.height, cells);
       const std::string error = "error up to about " + rounded(law.error(scene.height / scene.cell_size));
       writer.line("cell size",
                   rounded(size) + " m, H/h = " + rounded(scene.height / size) +
-                      (!law.gap.empty()     ? " as now: the error is not known"
-                       : law.remedy.empty() ? " (now " + rounded(scene.cell_size) + " m: " + error + ")"
-                                            : " as now: " + error));
+                      (is_as_now ? " as now: " : " (now " + rounded(scene.cell_size) + " m: ") +
+                      (!law.gap.empty() ? "the error is not known" : error) + (is_as_now ? "" : ")"));
       if (!law.gap.empty())
         writer.line("error",
                     "not known: " + law.gap +
@@ -575,7 +578,7 @@ namespace scree
     template <int dim>
     unsigned int coarsening(const Parameters &parameters, const MPI_Comm communicator)
     {
-      constexpr double most = 2e6; // points and fine cells
+      constexpr double most = 4e5; // points and fine cells
       MemoryEstimate size;
       on_all_ranks(communicator, [&] { size = estimate_memory<dim>(parameters); });
       const double n = size.n_soil_points + size.n_water_points + size.n_cells;
@@ -598,21 +601,17 @@ namespace scree
     }
 
 
-    /// Core-seconds that a pilot may take: a part of those of the run's steps, but some seconds are nothing.
-    double seconds_of_pilot(const double of_run)
-    {
-      return std::clamp(0.05 * of_run, 1., 15.);
-    }
+    constexpr double seconds_of_pilot = 2.; // core-seconds that a run with wider cells may take
 
     /// How many times as wide the cells of a pilot are: as few as its time allows, and not so many that no height is
     /// left; somewhat more if cells then fill the box.
     double coarsening_of_pilot(const Advice &advice, const double of_run)
     {
-      constexpr double least_cells = 3; // over the height
-      const double wanted          = std::pow(of_run / seconds_of_pilot(of_run), 1. / (advice.scene.dim + 1));
-      const double allowed         = advice.scene.height / advice.scene.cell_size / least_cells;
-      const double factor          = std::max({ 2., double(advice.coarser), std::min(wanted, allowed) });
-      long common                  = 0; // divisor of the cells along all axes
+      const double least_cells = advice.scene.is_layer ? 0.5 : 3.; // over the height
+      const double wanted      = std::pow(of_run / seconds_of_pilot, 1. / (advice.scene.dim + 1));
+      const double allowed     = advice.scene.height / advice.scene.cell_size / least_cells;
+      const double factor      = std::max({ 2., double(advice.coarser), std::min(wanted, allowed) });
+      long common              = 0; // divisor of the cells along all axes
       for (unsigned int a = 0; a < advice.scene.dim; ++a)
         common = std::gcd(common, advice.grid.n_cells_along(a));
       const double exact = common / std::max(1., std::floor(common / factor));
@@ -667,7 +666,7 @@ namespace scree
           parameters.time_step        = advice.schedule.time_step;
           coarsen(parameters, advice.pilot_coarser);
           Simulation<dim> pilot(parameters, Start::fresh, communicator);
-          advice.seen = with_pilot(advice.seen, measure_run(pilot, seen, 2. * seconds_of_pilot(of_run), communicator));
+          advice.seen = with_pilot(advice.seen, measure_run(pilot, seen, 2. * seconds_of_pilot, communicator));
         }
       catch (const std::exception &fault)
         {

@@ -117,6 +117,7 @@ namespace scree
       {
         if (scene.has_soil && run.bed)
           {
+            scene.is_layer = true;
             SoilMotion<dim> motion(grid, Tensor<1, dim>(), run.bed.get());
             scene.height = grid.cell_size() * motion.look(run.bodies, 0.).thickness;
             return;
@@ -421,14 +422,18 @@ namespace scree
       law.gap = "its law is that of water that falls and runs";
     else if (scene.has_soil && scene.is_elastic)
       law.gap = gap_of_elastic_law(scene);
+    else if (scene.is_layer)
+      {
+        law.gap    = "its law is that of heaps, and here soil runs out on a bed";
+        law.remedy = "";
+      }
     return law;
   }
 
 
   double cell_size_for(const GridParameters &grid, const double height, const double cells)
   {
-    constexpr double fewest_cells = 10.;
-    const double largest          = height / std::max(fewest_cells, cells);
+    const double largest = height / cells;
     std::vector<double> lengths;
     for (unsigned int a = 0; a < grid.lower_corner.size(); ++a)
       lengths.push_back(grid.upper_corner[a] - grid.lower_corner[a]);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -49,8 +50,9 @@ namespace scree
 
   std::string number_text(const double value)
   {
+    // Coordinates of maps, of some 1e6 m, to the centimetre.
     std::ostringstream text;
-    text << value;
+    text << std::setprecision(std::abs(value) < 1e5 ? 6 : 9) << value;
     return text.str();
   }
 

@@ -53,20 +53,15 @@ namespace scree
   }
 
 
-  namespace
+  std::string duration(const double seconds)
   {
-    /// 75 -> "1 min 15 s"
-    std::string duration(const double seconds)
-    {
-      const long s = std::lround(seconds);
-      if (s >= 3600)
-        return std::to_string(s / 3600) + " h " + std::to_string(s % 3600 / 60) + " min";
-      if (s >= 60)
-        return std::to_string(s / 60) + " min " + std::to_string(s % 60) + " s";
-      return std::to_string(s) + " s";
-    }
-
-  } // namespace
+    const long s = std::lround(seconds);
+    if (s >= 3600)
+      return std::to_string(s / 3600) + " h " + std::to_string(s % 3600 / 60) + " min";
+    if (s >= 60)
+      return std::to_string(s / 60) + " min " + std::to_string(s % 60) + " s";
+    return std::to_string(s) + " s";
+  }
 
 
   double processor_time()

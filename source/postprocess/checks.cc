@@ -12,7 +12,7 @@ namespace scree
     constexpr unsigned long long steps_between = 20; // a look passes over all points
 
     /// What a sound run does not exceed, by Check; doc/output.md derives those of volume and stress.
-    constexpr double bounds[] = { 1.5, 0.1, 1. / 0.6, 1.5, 2., 0. };
+    constexpr double bounds[] = { 1.5, 0.1, 1. / 0.6, 1.5, 2., 0., 0. };
 
     /// Normal stress, Pa, tension positive, on planes with the unit normal `axis`.
     template <int dim>
@@ -156,7 +156,39 @@ namespace scree
         });
     for (const SoilBody<dim> &body : bodies)
       if (!body.is_rigid)
-        look_at_dilation(body);
+        {
+          look_at_dilation(body);
+          if (g > 0. && walls != nullptr)
+            look_at_walls(body);
+        }
+  }
+
+
+  template <int dim>
+  void RunChecks<dim>::look_at_walls(const SoilBody<dim> &body)
+  {
+    unsigned int upward = dim - 1;
+    for (unsigned int a = 0; a < dim; ++a)
+      if (std::abs(gravity[a]) > std::abs(gravity[upward]))
+        upward = a;
+    // Soil beside a wall may slide down along it: only its way to the wall, or up it, shows that the wall stops it.
+    const double h          = grid.cell_size();
+    const Tensor<1, dim> up = -gravity / gravity.norm();
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      if (const unsigned int a = face / 2; a != upward && !walls->is_open(face))
+        {
+          const bool is_lower   = face % 2 == 0;
+          const double at       = (is_lower ? grid.lower_corner() : grid.upper_corner())[a];
+          const std::string end = std::string(", at the wall ") + "xyz"[a] + " = " + number_text(at) + " m (\"" +
+                                  (is_lower ? "Lower" : "Upper") + " corner\")";
+          for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
+            const Point<dim> start(vector_of<dim>(point.properties + body.layout.start));
+            const double distance = std::abs(point.location[a] - at);
+            const double way      = std::max(std::abs(start[a] - at) - distance, up * (point.location - start));
+            if (distance < h && way > h)
+              suspect(wall, way, way, [&] { return name() + end; });
+          });
+        }
   }
 
 
@@ -226,6 +258,8 @@ namespace scree
                "; write a smaller dilation angle, a larger tension cut-off, or a law with a critical state";
       case stress:
         return which + "p' and the vertical stress reach " + found + " Pa, " + value + " times rho g H of all the soil";
+      case wall:
+        return which + "it has come " + found + " m to this wall or up it, which cuts off the run-out: move the corner";
       default:
         return when + found + " points of soil left the box";
       }
@@ -252,6 +286,10 @@ namespace scree
         "deepest point " + deepest + " m below the bed",
         short_text(bounds[1] * grid.cell_size()) + " m");
     add(lost, has_soil, "points of soil lost " + short_text(worst[lost].found), "0");
+    add(wall,
+        has_weight && walls != nullptr,
+        "soil has come " + short_text(worst[wall].found) + " m to a wall of the box",
+        "0");
     add(speed,
         true,
         "fastest point " + fastest + " times the largest 99.9 % quantile of the speeds",

@@ -161,7 +161,8 @@ namespace scree
     std::shared_ptr<Picture> picture_of_soil(const std::list<SoilBody<dim>> &bodies,
                                              const BackgroundGrid<dim> &grid,
                                              const NodalField<dim> &field,
-                                             const WaterView<dim> *view)
+                                             const WaterView<dim> *view,
+                                             const bool with_displacement)
     {
       const auto picture          = std::make_shared<PatchOutput<0, dim>>();
       PatchOutput<0, dim> &output = *picture;
@@ -180,7 +181,6 @@ namespace scree
           output.add({ "seepage_velocity", "m/s", FieldKind::vector });
         }
       output.add({ "id", "-" });
-      const bool with_displacement = bodies.front().layout.has_start; // all bodies have it, or none
       if (with_displacement)
         output.add({ "displacement", "m", FieldKind::vector });
       LawFields<dim> law_fields(bodies, output);
@@ -337,7 +337,7 @@ namespace scree
     if (with_grid || view)
       contents = contents_of_cells(bodies, view ? view->water : no_water, grid);
     if (!bodies.empty())
-      add("points", point_files, time, picture_of_soil(bodies, grid, field, view), files);
+      add("points", point_files, time, picture_of_soil(bodies, grid, field, view, with_displacement), files);
     if (view)
       add("water", water_files, time, picture_of_water(grid, field, *view, contents), files);
     if (with_grid)

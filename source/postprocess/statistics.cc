@@ -13,7 +13,6 @@ namespace scree
     constexpr double rest_part     = 1e-3; // of sqrt(g h): soil at rest takes more than 1000 sqrt(h/g) for a cell
     constexpr double flow_part     = 0.1;  // of sqrt(g h): oscillations of soil at rest are slower
     constexpr double part_at_rest  = 0.99; // of the mass
-    constexpr double least_cells   = 3.;   // over the thickness of moving soil
     constexpr double least_change  = 0.1;  // of the cell size: less is no loss or deposit of a column
     constexpr double part_of_path  = 0.99; // of the deposit
     constexpr double steepest_wall = 0.5;  // cosine of the slope: steeper ground is a wall beside the soil
@@ -159,7 +158,8 @@ namespace scree
     if (largest_kinetic == 0. || gravity.norm() == 0.)
       return {};
     return { { "thickness of the moving soil " + short_text(thickness_then) + " cells",
-               "at least " + short_text(least_cells) + ", else smaller cells",
+               "at least " + short_text(least_cells) + ": cells of at most " +
+                   short_text(thickness_then * grid.cell_size() / least_cells) + " m",
                thickness_then < least_cells } };
   }
 

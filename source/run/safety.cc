@@ -7,32 +7,27 @@ namespace scree
 {
   using namespace dealii;
 
-  std::optional<FactorBracket> search_factor(const SafetyParameters &safety,
-                                             const std::function<TrialEnd(double)> &try_factor)
+  bool search_factor(const SafetyParameters &safety,
+                     const std::function<TrialEnd(double)> &try_factor,
+                     const FactorBracket &bracket)
   {
     constexpr double growth = 1.3;
-    const TrialEnd first    = try_factor(safety.lower);
-    if (first == TrialEnd::undecided)
-      return {};
-    require_entry(first == TrialEnd::rests,
-                  { "Safety", "Lower factor", safety.lower },
-                  "the slope does not come to rest with its strength divided by this. Write a smaller one.");
-    FactorBracket bracket{ safety.lower, 0. };
-    bool has_failed = false;
-    double factor   = std::min(safety.lower < 1. ? 1. : growth * safety.lower, safety.upper);
-    while (!has_failed || bracket.fails - bracket.rests > safety.tolerance)
+    double factor           = safety.lower;
+    while (bracket.fails - bracket.rests > safety.tolerance)
       {
-        const TrialEnd end = try_factor(factor);
-        if (end == TrialEnd::undecided)
-          return {};
-        has_failed                                               = has_failed || end == TrialEnd::fails;
-        (end == TrialEnd::fails ? bracket.fails : bracket.rests) = factor;
+        if (try_factor(factor) == TrialEnd::undecided)
+          return false;
+        require_entry(bracket.rests > 0.,
+                      { "Safety", "Lower factor", safety.lower },
+                      "the slope does not come to rest with its strength divided by this. Write a smaller one.");
         require_entry(bracket.rests < safety.upper,
                       { "Safety", "Upper factor", safety.upper },
                       "the slope still comes to rest with its strength divided by this. Write a larger one.");
-        factor = has_failed ? 0.5 * (bracket.rests + bracket.fails) : std::min(growth * factor, safety.upper);
+        factor = std::isfinite(bracket.fails) ? 0.5 * (bracket.rests + bracket.fails)
+                 : factor < 1.                ? std::min(1., safety.upper)
+                                              : std::min(growth * factor, safety.upper);
       }
-    return bracket;
+    return true;
   }
 
 
@@ -115,10 +110,18 @@ namespace scree
           trial = simulation.try_strength(given.safety.displacement);
           simulation.write_picture();
         }
+        bracket.include(factor, trial.end);
         record(factor, trial);
         if (trial.end != TrialEnd::undecided)
           keep_as(text_of(trial.end));
         return trial.end;
+      }
+
+
+      /// Of those with try_factor().
+      const FactorBracket &bracket_so_far() const
+      {
+        return bracket;
       }
 
 
@@ -164,13 +167,17 @@ namespace scree
       void record(const double factor, const Trial &trial)
       {
         if (rows.is_empty())
-          folder.log("   factor   trial   displacement (m)   time (s)    steps");
-        folder.log(formatted("   %-6.4g   %-7s %16.4g   %8.3f  %7llu",
+          folder.log("   factor   trial   displacement (m)   time (s)    steps   range so far       trials left");
+        const unsigned int n_left = bracket.n_left(given.safety);
+        folder.log(formatted("   %-6.4g   %-7s %16.4g   %8.3f  %7llu   %-16s   %u, about %s",
                              factor,
                              text_of(trial.end).c_str(),
                              trial.displacement,
                              trial.time,
-                             trial.steps));
+                             trial.steps,
+                             bracket.text().c_str(),
+                             n_left,
+                             duration(n_left * clock.wall_time() / ++n_trials).c_str()));
         if (!folder.is_writer() || trial.end == TrialEnd::undecided)
           return;
         if (rows.is_empty())
@@ -184,6 +191,9 @@ namespace scree
       const MPI_Comm communicator;
       RunFolder folder;
       RowFile rows;
+      FactorBracket bracket;
+      Timer clock; // of all trials
+      unsigned int n_trials = 0;
     };
   } // namespace
 
@@ -204,11 +214,13 @@ namespace scree
     require_entry(first != TrialEnd::fails,
                   { "Safety", "Lower factor", safety.lower },
                   "the slope does not settle with its strength divided by half of this. Write a smaller one.");
-    std::optional<FactorBracket> bracket;
+    const FactorBracket &bracket = trials.bracket_so_far();
+    bool has_found               = false;
     try
       {
-        if (first == TrialEnd::rests)
-          bracket = search_factor(safety, [&](const double factor) { return trials.try_factor(factor); });
+        has_found = first == TrialEnd::rests &&
+                    search_factor(
+                        safety, [&](const double factor) { return trials.try_factor(factor); }, bracket);
       }
     catch (const EntryError &) // on all ranks: the factor is not in the range
       {
@@ -216,19 +228,20 @@ namespace scree
         throw;
       }
     trials.remove("settled");
-    if (!bracket)
+    if (!has_found)
       {
-        trials.log("Stopped     safety.csv has the trials so far");
+        trials.log("Stopped     " + (bracket.rests > 0. ? "factor so far: " + bracket.text() + "; " : "") +
+                   "safety.csv has the trials so far");
         return End::stopped;
       }
     const int digits = std::max(0, int(std::ceil(-std::log10(safety.tolerance) - 1e-9)));
     trials.log(formatted("Factor of safety  %.*f (between %.*f and %.*f)",
                          digits,
-                         0.5 * (bracket->rests + bracket->fails),
+                         0.5 * (bracket.rests + bracket.fails),
                          digits + 1,
-                         bracket->rests,
+                         bracket.rests,
                          digits + 1,
-                         bracket->fails));
+                         bracket.fails));
     trials.log("Results     " + parameters.output_directory +
                "/safety: safety.csv; rests and fails, the trials beside the factor, with solution/points.pvd");
     return End::complete;

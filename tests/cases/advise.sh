@@ -58,6 +58,8 @@ grep -q "cell size .*H/h = 1[6-9]" text # ten per cent of the dry run-out on a b
 "$scree" --advise prm/columns/mohr_coulomb_collapse.prm --accuracy 0.1 >text
 grep -q "^  measured in such scenes .*10 to 19 % of the displacement of the front" text
 grep -q "^  do not refine .*Set Grain diameter" text
+"$scree" --advise prm/terrain/mountain_dry.prm >text
+grep -q "cell size .* m, H/h = 3\.[0-9]* (now 10 m: the error is not known)" text # on a bed the thickness counts
 "$PYTHON" - <<END
 import pathlib
 from scree.variants import read_case, set_entry

@@ -3,6 +3,7 @@
 
 import csv
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -85,6 +86,9 @@ def range_and_stop():
         search.send_signal(signal.SIGTERM)
     check(search.returncode == 3, f"exit code {search.returncode} of a search that was stopped")
     check(len(trials(folder / "results")) >= 2, "trials are lost")
+    log = (folder / "results" / "safety" / "log.txt").read_text(encoding="utf-8")
+    check(re.search(r"^   1 +rests .* above 1 +10, about \S+ \w+$", log, re.MULTILINE), f"no range or number of trials: {log}")  # log2(0.6/0.001) = 9.2
+    check(re.search(r"^Stopped     factor so far: (above 1|1 to 1\.3)", log, re.MULTILINE), f"no range of a search that was stopped: {log}")
 
 
 def under_water():

@@ -147,7 +147,7 @@ def shifted():
     check(np.array_equal(maps[0].values, maps[1].values, equal_nan=True), "values of the map")
     check((moved / "maps" / "largest_thickness.prj").read_text(encoding="utf-8") == system, "system of coordinates")
     check(not (near / "maps" / "largest_thickness.prj").exists(), "system of coordinates from nowhere")
-    check("Local origin" in (moved / "log.txt").read_text(encoding="utf-8"), "log")
+    check("Local origin: x = 0, y = 0 is 2600000, 1200000 m" in (moved / "log.txt").read_text(encoding="utf-8"), "log")
 
 
 globals()[sys.argv[3]]()

@@ -37,6 +37,7 @@ namespace scree
 
     bool has_soil              = false; ///< whether any body can move
     bool sticks                = false; ///< on a floor or bed that holds the soil
+    bool is_layer              = false; ///< on a bed: the height is a thickness
     bool is_elastic            = false; ///< all bodies are linear elastic
     double courant_of_transfer = 0;     ///< see TransferParameters::courant_number()
     WaveMedium mean;                    ///< means over the volume of the soil
@@ -184,12 +185,11 @@ namespace scree
   };
 
   /// The law of a scene's kind: run-out of plastic soil, elastic soil under a constant load, free water that falls. The
-  /// run-out of undrained soil, and of soil with water on a base that holds it, has not converged. Other scenes have
-  /// lengths of their own. Where there is no law, `gap` says why.
+  /// run-out of undrained soil, and of soil with water on a base that holds it, has not converged; that of thin soil on
+  /// a bed was not measured. Other scenes have lengths of their own. Where there is no law, `gap` says why.
   ErrorLaw error_law_of(const SceneNumbers &scene);
 
-  /// Largest cell size, m, that divides the box and gives at least `cells` (and ten, which the motion needs) over
-  /// `height`, m.
+  /// Largest cell size, m, that divides the box and gives at least `cells` over `height`, m.
   double cell_size_for(const GridParameters &grid, const double height, const double cells);
 
   /// The entries of subsection Time step that serve a scene, by measurement: the rest stays as it is.

@@ -43,6 +43,9 @@ namespace scree
     return formatted("%.3g", value);
   }
 
+  /// 75 -> "1 min 15 s"
+  std::string duration(const double seconds);
+
   /// The lines `Checks`: values out of bounds with their bounds and places, then the others.
   std::string verdict(const std::vector<CheckResult> &results);
 

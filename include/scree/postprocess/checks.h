@@ -3,6 +3,7 @@
 #define scree_postprocess_checks_h
 
 #include <scree/boundary/body_forces.h>
+#include <scree/boundary/boundary_conditions.h>
 #include <scree/postprocess/statistics.h>
 
 #include <boost/serialization/array.hpp>
@@ -16,13 +17,16 @@ namespace scree
   public:
     /// All are kept by reference.
     /// @param bed null: none
+    /// @param walls of the box; null: they are structures that soil may hit
     RunChecks(const BackgroundGrid<dim> &grid,
               const dealii::Tensor<1, dim> &gravity,
               const DiscreteLevelSet<dim> *bed,
+              const BoundaryConditions<dim> *walls,
               RunFolder &folder)
         : grid(grid)
         , gravity(gravity)
         , bed(bed)
+        , walls(walls)
         , folder(folder)
     {
     }
@@ -56,6 +60,7 @@ namespace scree
       shrinkage, ///< V_0/V of soil
       dilation,  ///< V/V_0 of soil in contact, mean of a cell
       stress, ///< p' or vertical stress, the smaller, over rho g H of the soil, H from its lowest to its highest point
+      wall,   ///< way to a closed side wall or up it, m, of soil within a cell of it, if above a cell
       lost,   ///< points of soil that left the box
       n_checks
     };
@@ -86,6 +91,7 @@ namespace scree
 
     void look_at_places(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water);
     void look_at_dilation(const SoilBody<dim> &body);
+    void look_at_walls(const SoilBody<dim> &body);
     void look_at_speeds(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water);
 
     /// Takes the worst of all ranks and logs what is wrong for the first time. Collective.
@@ -97,6 +103,7 @@ namespace scree
     const BackgroundGrid<dim> &grid;
     const dealii::Tensor<1, dim> gravity;
     const DiscreteLevelSet<dim> *bed;
+    const BoundaryConditions<dim> *walls;
     RunFolder &folder;
     double usual_speed_of_soil = 0., usual_speed_of_water = 0.; // largest 99.9 % quantiles so far, m/s
     Suspects now, worst;

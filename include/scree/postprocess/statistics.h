@@ -95,6 +95,9 @@ namespace scree
   class SoilMotion
   {
   public:
+    /// Cells over the thickness of moving soil.
+    static constexpr double least_cells = 3.;
+
     /// Keeps references.
     /// @param gravity m/s^2
     /// @param bed null: the ground is normal to the last axis

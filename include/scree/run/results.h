@@ -31,7 +31,10 @@ namespace scree
         , scene(scene)
         , scheme(scheme)
         , folder(folder)
-        , graphics(scene.grid, parameters.output, parameters.output_directory)
+        , graphics(scene.grid,
+                   parameters.output,
+                   parameters.probes.displacement || parameters.settling.maximum_time > 0.,
+                   parameters.output_directory)
         , statistics(scene.grid,
                      scene.forcing.gravity(),
                      { !scene.loads.empty(),
@@ -49,7 +52,11 @@ namespace scree
                { parameters.end_time, parameters.output.interval },
                scene.grid,
                folder)
-        , checks(scene.grid, scene.forcing.gravity(), scene.bed.get(), folder)
+        , checks(scene.grid,
+                 scene.forcing.gravity(),
+                 scene.bed.get(),
+                 parameters.probes.wall_forces ? nullptr : &scene.walls,
+                 folder)
         , balances(scene.grid, scene.forcing)
         , files(scene.grid.communicator())
     {

@@ -9,16 +9,39 @@ namespace scree
   /// Two factors of strength between which a slope begins to fail.
   struct FactorBracket
   {
-    double rests, ///< largest factor tried with which it rests
-        fails;    ///< smallest one with which it fails
+    double rests = 0.,                                      ///< largest factor tried with which it rests; 0: none
+        fails    = std::numeric_limits<double>::infinity(); ///< smallest one with which it fails; infinite: none
+
+    /// Takes a trial that has ended.
+    void include(const double factor, const TrialEnd end)
+    {
+      if (end != TrialEnd::undecided)
+        (end == TrialEnd::fails ? fails : rests) = factor;
+    }
+
+    /// Trials that a bisection still takes; before the slope has failed, one that begins at the upper factor.
+    unsigned int n_left(const SafetyParameters &safety) const
+    {
+      return std::max(0., std::ceil(std::log2((std::min(fails, safety.upper) - rests) / safety.tolerance) - 1e-9));
+    }
+
+    /// "above 1.3", "1.3 to 1.69"; empty before a trial.
+    std::string text() const
+    {
+      return std::isfinite(fails) ? number_text(rests) + " to " + number_text(fails)
+             : rests > 0.         ? "above " + number_text(rests)
+                                  : "";
+    }
   };
 
   /// Searches the factor: the lower factor, then from 1 up in steps of 30 % until the slope fails, then by bisection to
-  /// the tolerance. Nothing if a trial is undecided, as it was asked to stop. Throws EntryError if the slope fails with
-  /// the lower factor, or rests with the upper one.
-  /// @param try_factor makes a trial with a factor
-  std::optional<FactorBracket> search_factor(const SafetyParameters &safety,
-                                             const std::function<TrialEnd(double)> &try_factor);
+  /// the tolerance. Throws EntryError if the slope fails with the lower factor, or rests with the upper one.
+  /// @param try_factor makes a trial with a factor and adds it to the bracket
+  /// @param bracket of the trials so far
+  /// @return whether the search has come to its end: no trial is undecided, as it was asked to stop
+  bool search_factor(const SafetyParameters &safety,
+                     const std::function<TrialEnd(double)> &try_factor,
+                     const FactorBracket &bracket);
 
   /// Searches the factor of safety of a case by strength reduction (@source{griffiths1999}), and writes it to the
   /// screen and to the folder `safety` of the run folder: `log.txt`, `safety.csv` with one row a trial, and the run

@@ -233,13 +233,13 @@ def _figures(run, commands, folder, charts):
 
 
 def description(file):
-    """The comment at the head of a case or a study."""
+    """The first sentence of the comment at the head of a case or a study; the rest may be of the case that it was copied from."""
     file, lines = pathlib.Path(file), []
     for line in file.read_text(encoding="utf-8-sig", errors="replace").splitlines() if file.exists() else []:
         if not line.startswith("#"):
             break
         lines.append(line.lstrip("# ").strip())
-    return " ".join(lines)
+    return re.split(r"(?<=[.!?])\s+(?=[A-Z])", " ".join(lines))[0]
 
 
 def page(run, field=None, times=None):

@@ -22,12 +22,17 @@ void search(const SafetyParameters &safety,
   std::ostringstream tried, result;
   try
     {
-      const auto bracket = search_factor(safety, [&](const double factor) {
+      FactorBracket bracket;
+      const auto try_factor = [&](const double factor) {
         tried << (n == 0 ? "" : " ") << factor;
-        return ++n == n_trials ? TrialEnd::undecided : factor > factor_of_safety ? TrialEnd::fails : TrialEnd::rests;
-      });
-      if (bracket)
-        result << bracket->rests << " to " << bracket->fails;
+        const TrialEnd end = ++n == n_trials             ? TrialEnd::undecided
+                             : factor > factor_of_safety ? TrialEnd::fails
+                                                         : TrialEnd::rests;
+        bracket.include(factor, end);
+        return end;
+      };
+      result << (search_factor(safety, try_factor, bracket) ? "" : "stopped: ") << bracket.text() << ", "
+             << bracket.n_left(safety) << " left";
     }
   catch (const EntryError &error)
     {
@@ -60,16 +65,17 @@ void judge(const double speed, const double growth, const TrialEnd expected, con
 const UnitTest registered("factor_search", [] {
   SafetyParameters safety;
   const std::string larger = ": the slope still comes to rest with its strength divided by this. Write a larger one.";
-  search(safety, 1.374, "0.5 1 1.3 1.69 1.495 1.3975 1.34875 1.37312 1.38531 1.37922", "1.37312 to 1.37922");
-  search(safety, 0.73, "0.5 1 0.75 0.625 0.6875 0.71875 0.734375 0.726562", "0.726562 to 0.734375");
+  search(safety, 1.374, "0.5 1 1.3 1.69 1.495 1.3975 1.34875 1.37312 1.38531 1.37922", "1.37312 to 1.37922, 0 left");
+  search(safety, 0.73, "0.5 1 0.75 0.625 0.6875 0.71875 0.734375 0.726562", "0.726562 to 0.734375, 0 left");
   const std::string up = "0.5 1 1.3 1.69 2.197 2.8561 3.71293 4.82681";
-  search(safety, 3.83, up + " 4.26987 3.9914 3.85216 3.78255 3.81736 3.83476 3.82606", "3.82606 to 3.83476");
+  search(safety, 3.83, up + " 4.26987 3.9914 3.85216 3.78255 3.81736 3.83476 3.82606", "3.82606 to 3.83476, 0 left");
   search(safety, 7., up + " 5", "subsection Safety, entry \"Upper factor\" = 5" + larger);
-  search(safety, 1.374, "0.5 1 1.3 1.69", "", 4);
+  search(safety, 1.374, "0.5 1 1.3", "stopped: above 1, 9 left", 3); // log2((5 - 1)/0.01) = 8.6
+  search(safety, 1.374, "0.5 1 1.3 1.69 1.495", "stopped: 1.3 to 1.69, 6 left", 5);
   safety.lower     = 1.2;
   safety.upper     = 1.5;
   safety.tolerance = 0.1;
-  search(safety, 1.374, "1.2 1.5 1.35 1.425", "1.35 to 1.425");
+  search(safety, 1.374, "1.2 1.5 1.35 1.425", "1.35 to 1.425, 0 left");
   search(safety, 1.5, "1.2 1.5", "subsection Safety, entry \"Upper factor\" = 1.5" + larger);
   search(
       safety,

@@ -15,7 +15,7 @@ void test()
 {
   constexpr unsigned int n = n_symmetric_components<dim>;
   const BackgroundGrid<dim> grid(grid_box<dim>(0., 0.6, 0.1, "spline"), MPI_COMM_WORLD);
-  ElasticSoil<dim> body(grid, "x + 0.7 * y < 0.45", 2, 0., 1000., PropertyLayout<dim>(0, false, 0, false, true));
+  ElasticSoil<dim> body(grid, "x + 0.7 * y < 0.45", 2, 0., 1000., PropertyLayout<dim>(0, false, 0, true));
   const unsigned int stress = body.layout.stress, damping = body.layout.damping;
 
   RandomNumbers random;

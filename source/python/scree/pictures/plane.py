@@ -126,6 +126,7 @@ def panel_of(axes, box, run=None, time=0., longest=1300):
     surfaces = rigid.rigid_surfaces(run, places, time) if run else []
     is_open = np.all([surface.level_set > 0 for surface in surfaces], axis=0) if surfaces else np.ones((pixels.ny, pixels.nx), dtype=bool)
     axes.set(xlim=(box.lower[0], box.upper[0]), ylim=(box.lower[1], box.upper[1]), aspect="equal", xlabel="x (m)", ylabel="y (m)")
+    axes.locator_params(steps=[1, 2, 5, 10])  # steps of 2.5 have wide labels, for which the layout has no room
     return Panel(axes, box, pixels, is_open, surfaces)
 
 
