@@ -70,61 +70,28 @@ namespace scree
   }
 
 
-  FaceEntries::FaceEntries(const std::string &subsection,
-                           const std::string &phase,
-                           const std::string &side,
-                           const std::string &bottom,
-                           const std::string &top)
-      : left(side)
-      , right(side)
-      , front(side)
-      , back(side)
-      , bottom(bottom)
-      , top(top)
-      , subsection(subsection)
-      , phase(phase)
-      , default_side(side)
-  {
-  }
-
-
   void FaceEntries::add_parameters(ParameterHandler &prm)
   {
     const std::string what = " of the box" + phase + ": " + accepted_walls(subsection);
     const auto path        = Utilities::split_string_list(subsection, '/');
     for (const std::string &name : path)
       prm.enter_subsection(name);
-    prm.add_parameter("Left", left, "Lower x face" + what);
-    prm.add_parameter("Right", right, "Upper x face" + what);
-    prm.add_parameter("Front", front, "Lower y face (3D only)" + what);
-    prm.add_parameter("Back", back, "Upper y face (3D only)" + what);
-    prm.add_parameter("Bottom", bottom, "Lower face of the last axis" + what);
-    prm.add_parameter("Top", top, "Upper face of the last axis" + what);
+    const std::string axes[] = { "x face", "y face (3D only)", "face of the last axis" };
+    for (unsigned int f = 0; f < 6; ++f)
+      prm.add_parameter(names(3)[f], texts[names(3)[f]], (f % 2 == 0 ? "Lower " : "Upper ") + axes[f / 2] + what);
     for (unsigned int i = 0; i < path.size(); ++i)
       prm.leave_subsection();
   }
 
 
-  void FaceEntries::check(const unsigned int dim) const
-  {
-    walls(3);
-    if (dim == 2)
-      for (const auto &[name, wall] : { std::make_pair("Front", front), std::make_pair("Back", back) })
-        require_entry(wall == default_side,
-                      { subsection, name, wall },
-                      "a plane strain run has no such wall. Remove the entry, or write \"Dimension = 3\".");
-  }
-
-
   std::vector<Wall> FaceEntries::walls(const unsigned int dim) const
   {
-    const auto faces = names(dim), entries = texts(dim);
     std::vector<Wall> result;
-    for (unsigned int f = 0; f < faces.size(); ++f)
+    for (const std::string &face : names(dim))
       {
-        const std::optional<Wall> wall = read_wall(subsection, entries[f]);
+        const std::optional<Wall> wall = read_wall(subsection, texts.at(face));
         if (!wall)
-          throw EntryError(entry_name(subsection, faces[f]) + " = " + entries[f] +
+          throw EntryError(entry_name(subsection, face) + " = " + texts.at(face) +
                            ": write one of: " + accepted_walls(subsection));
         result.push_back(*wall);
       }

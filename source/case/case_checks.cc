@@ -131,10 +131,9 @@ namespace scree
     void check_without_soil(const Parameters &parameters)
     {
       const std::string no_soil = "this entry has no effect, as there is no soil: entry \"Bodies\" is none. Remove it";
-      const auto walls = parameters.boundaries.texts(3), defaults = BoundaryParameters().texts(3);
-      for (unsigned int f = 0; f < walls.size(); ++f)
-        require_entry(walls[f] == defaults[f],
-                      { "Boundaries", FaceEntries::names(3)[f], walls[f] },
+      for (const auto &[face, wall] : parameters.boundaries.texts)
+        require_entry(wall == BoundaryParameters().texts.at(face),
+                      { "Boundaries", face, wall },
                       no_soil + ", or move it to subsection Water of subsection Boundaries.");
       require_entry(!parameters.surface_load.is_set(),
                     { "Surface load", "Traction", parameters.surface_load.traction },

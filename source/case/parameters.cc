@@ -566,13 +566,8 @@ namespace scree
       reduce(obstacle.surface.friction_angle);
     for (ContactParameters &contact : contacts)
       reduce(contact.friction_angle);
-    for (std::string *wall : { &boundaries.left,
-                               &boundaries.right,
-                               &boundaries.front,
-                               &boundaries.back,
-                               &boundaries.bottom,
-                               &boundaries.top })
-      if (const std::string friction = "friction "; wall->rfind(friction, 0) == 0)
-        *wall = friction + exact_text({ divided_angle(number_of(wall->substr(friction.size())), factor) });
+    for (auto &[face, wall] : boundaries.texts)
+      if (const std::string friction = "friction "; wall.rfind(friction, 0) == 0)
+        wall = friction + exact_text({ divided_angle(number_of(wall.substr(friction.size())), factor) });
   }
 } // namespace scree

@@ -9,6 +9,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <limits>
+#include <map>
 
 namespace scree
 {
@@ -51,12 +52,7 @@ namespace scree
   /// One entry a face of the box, in a subsection of walls.
   struct FaceEntries
   {
-    std::string left, ///< face at the lower end of x
-        right,        ///< upper end of x
-        front,        ///< lower end of y, 3D
-        back,         ///< upper end of y, 3D
-        bottom,       ///< lower end of y in 2D, of z in 3D
-        top;          ///< upper end of y in 2D, of z in 3D
+    std::map<std::string, std::string> texts; ///< values by the names() of a box in space
 
     /// Names of the faces in deal.II's numbering: lower and upper face of each axis.
     static std::vector<std::string> names(const unsigned int dim)
@@ -66,19 +62,19 @@ namespace scree
       return { "Left", "Right", "Front", "Back", "Bottom", "Top" };
     }
 
-    /// The entries in the same order.
-    std::vector<std::string> texts(const unsigned int dim) const
-    {
-      if (dim == 2)
-        return { left, right, bottom, top };
-      return { left, right, front, back, bottom, top };
-    }
-
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError if an entry does not read as a wall, or is set for a wall that is not there.
-    void check(const unsigned int dim) const;
+    void check(const unsigned int dim) const
+    {
+      walls(3);
+      if (dim == 2)
+        for (const char *name : { "Front", "Back" })
+          require_entry(texts.at(name) == default_side,
+                        { subsection, name, texts.at(name) },
+                        "a plane strain run has no such wall. Remove the entry, or write \"Dimension = 3\".");
+    }
 
     /// The walls in deal.II's numbering of the faces. Throws EntryError if an entry does not read as a wall.
     std::vector<Wall> walls(const unsigned int dim) const;
@@ -91,7 +87,14 @@ namespace scree
                 const std::string &phase,
                 const std::string &side,
                 const std::string &bottom,
-                const std::string &top);
+                const std::string &top)
+        : texts{ { "Left", side }, { "Right", side },    { "Front", side },
+                 { "Back", side }, { "Bottom", bottom }, { "Top", top } }
+        , subsection(subsection)
+        , phase(phase)
+        , default_side(side)
+    {
+    }
 
   private:
     std::string subsection, phase, default_side;

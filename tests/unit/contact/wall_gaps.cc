@@ -36,8 +36,8 @@ struct Box
   static BoundaryParameters boundaries()
   {
     BoundaryParameters result;
-    for (std::string *wall : { &result.left, &result.right, &result.bottom, &result.top })
-      *wall = "fixed";
+    for (auto &[face, wall] : result.texts)
+      wall = face == "Front" || face == "Back" ? wall : "fixed";
     return result;
   }
 

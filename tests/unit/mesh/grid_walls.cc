@@ -13,7 +13,7 @@ Tensor<1, 2> after_wall(const std::string &wall, const Tensor<1, 2> &velocity, c
 {
   const GridParameters box;
   BoundaryParameters parameters;
-  parameters.left = parameters.top = wall;
+  parameters.texts["Left"] = parameters.texts["Top"] = wall;
   const BackgroundGrid<2> grid(box, MPI_COMM_WORLD);
   Tensor<1, 2> result = velocity;
   NodeConstraints<2> constraints;
@@ -52,8 +52,8 @@ void test_water()
 {
   const BackgroundGrid<3> grid(grid_box<3>(-0.2, 0.8), MPI_COMM_WORLD);
   WaterBoundaryParameters wet;
-  wet.left  = "no slip";
-  wet.right = "drained 3e3";
+  wet.texts["Left"]  = "no slip";
+  wet.texts["Right"] = "drained 3e3";
   wet.check(3);
   const BoundaryConditions<3> water(grid, wet);
   const std::uint8_t left = 1, right = 2, front = 4, top = 32;
@@ -78,8 +78,8 @@ void test_water()
           "A point left through another face.");
 
   BoundaryParameters dry;
-  dry.left = "fixed";
-  dry.back = "friction 30";
+  dry.texts["Left"] = "fixed";
+  dry.texts["Back"] = "friction 30";
   const BoundaryConditions<3> soil(grid, dry);
   const std::uint8_t back = 8;
   const auto of_faces     = [&](const std::uint8_t faces) {

@@ -21,8 +21,8 @@ void run()
 {
   const BackgroundGrid<2> grid(GridParameters(), MPI_COMM_WORLD);
   BoundaryParameters parameters;
-  const std::uint8_t left = 1 << 0;
-  parameters.left         = "rough 50";
+  const std::uint8_t left  = 1 << 0;
+  parameters.texts["Left"] = "rough 50";
   const BoundaryConditions<2> walls(grid, parameters);
   NodeConstraints<2> node;
   for (const auto &constraint : walls.constraints(left))
@@ -38,7 +38,7 @@ void run()
 
   for (const std::string wrong : { "rough", "rough 200", "rough -1", "rougher 1", "rough one" })
     {
-      parameters.left = wrong;
+      parameters.texts["Left"] = wrong;
       try
         {
           parameters.check(2);
