@@ -49,7 +49,6 @@ namespace scree
         due.push_back(depth * std::fmod(golden * (column + 1), 1.)); // in turns, and right in the mean
         books.waiting -= due.back() * std::pow(spacing, dim - 1);
       }
-    reinit();
   }
 
 

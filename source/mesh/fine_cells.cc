@@ -168,7 +168,8 @@ namespace scree
           cell->set_user_index(static_cast<unsigned int>(use));
           if (use != CellUse::inner)
             continue;
-          cell_list.push_back({ curve_number<dim>(place), place, cell->active_cell_index(), cell->subdomain_id() });
+          cell_list.push_back(
+              { curve_number<dim>(place), place, cell->active_cell_index(), cell->subdomain_id(), cell });
           // Halving again and again rounds in another way for each depth of the mesh.
           for (const unsigned int v : cell->vertex_indices())
             {

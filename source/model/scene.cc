@@ -242,10 +242,6 @@ namespace scree
       obstacle.reinit();
     if (cut_cells)
       cut_cells->reinit();
-    for (Inflow<dim> &inflow : inflows)
-      inflow.reinit();
-    if (rain)
-      rain->reinit();
     hold_at_inflows();
   }
 
@@ -466,19 +462,18 @@ namespace scree
     std::vector<double> properties(points.stride());
     std::vector<int> has_cell(drops.size(), 0);
     for (unsigned int i = 0; i < drops.size(); ++i)
-      if (const auto *cell = rain->cell_at(drops[i].location))
+      if (const auto *cell = grid.fine_cells().own_cell_at(drops[i].location))
         {
-          const Point<dim> &x      = drops[i].location;
-          const unsigned int index = (*cell)->active_cell_index();
+          const Point<dim> &x = drops[i].location;
           std::fill(properties.begin(), properties.end(), 0.);
-          fill_entrant(Entrant{ rain->volume(), x, index, Point<dim>((x - (*cell)->vertex(0)) / grid.cell_size()) },
+          fill_entrant({ rain->volume(), x, cell->index, grid.fine_cells().place_in(*cell, x) },
                        phase,
-                       pressure(index),
+                       pressure(cell->index),
                        properties);
           const double mass = properties[phase.layout.mass];
           totals.entered_water_mass += mass;
           totals.entered_energy -= mass * (forcing.gravity() * (x - Point<dim>()));
-          points.add(*cell, x, points.next_id + i, properties);
+          points.add(cell->in_mesh, x, points.next_id + i, properties);
           has_cell[i] = 1;
         }
     points.next_id += drops.size();
@@ -506,19 +501,15 @@ namespace scree
       {
         const auto &place  = inflow.places()[i];
         const Point<dim> x = place.location + inflow.advance_of(back) * inflow.inward();
-        const auto *cell   = inflow.cell_at(x);
+        const auto *cell   = grid.fine_cells().own_cell_at(x);
         if (cell == nullptr)
           continue;
         std::fill(properties.begin(), properties.end(), 0.);
-        fill(Entrant{ place.volume,
-                      x,
-                      (*cell)->active_cell_index(),
-                      Point<dim>((x - (*cell)->vertex(0)) / grid.cell_size()) },
-             properties);
+        fill(Entrant{ place.volume, x, cell->index, grid.fine_cells().place_in(*cell, x) }, properties);
         const double mass = properties[mass_slot];
         totals.entered_momentum += mass * velocity;
         totals.entered_energy += mass * (0.5 * velocity.norm_square() - forcing.gravity() * (x - Point<dim>()));
-        points.add(*cell, x, points.next_id + i, properties);
+        points.add(cell->in_mesh, x, points.next_id + i, properties);
         ++n_points;
       }
     points.next_id += inflow.places().size();

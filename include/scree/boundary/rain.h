@@ -74,8 +74,6 @@ namespace scree
   class Rain
   {
   public:
-    using CellIterator = typename dealii::Triangulation<dim>::active_cell_iterator; ///< cells of the mesh
-
     /// A drop.
     struct Drop
     {
@@ -97,15 +95,6 @@ namespace scree
          const BackgroundGrid<dim> &grid,
          const double spacing,
          const RainedSoil &soil);
-
-    /// Finds the cells of the current mesh.
-    void reinit()
-    {
-      own_cells.clear();
-      for (const auto &cell : grid.triangulation().active_cell_iterators())
-        if (cell->is_locally_owned() && holds_nodes(cell))
-          own_cells.emplace(grid.fine_cells().box().place_of_corner(cell->vertex(0)), cell);
-    }
 
     /// Counts what falls in a step, s; returns whether drops are due.
     bool count(const double time, const double time_step)
@@ -172,13 +161,6 @@ namespace scree
     double volume() const
     {
       return depth * std::pow(spacing, dim - 1);
-    }
-
-    /// This rank's fine cell that holds a place; null if there is none.
-    const CellIterator *cell_at(const dealii::Point<dim> &x) const
-    {
-      const auto entry = own_cells.find(grid.fine_cells().box().place_near(x));
-      return entry == own_cells.end() ? nullptr : &entry->second;
     }
 
     /// Counts a drop again that found no cell.
@@ -284,7 +266,6 @@ namespace scree
     unsigned int n_slots;                // of a column, one spacing high
     std::vector<double> due;             // depth of rain that has not become a drop, m
     RainBooks books;
-    std::map<CellPlace<dim>, CellIterator> own_cells;
   };
 } // namespace scree
 

@@ -46,10 +46,11 @@ namespace scree
     /// A fine cell of this rank or a ghost.
     struct Cell
     {
-      std::uint64_t number;              ///< of its place on the curve
-      CellPlace<dim> place;              ///< numbers along the axes of the box
-      unsigned int index;                ///< active cell index
-      dealii::types::subdomain_id owner; ///< rank
+      std::uint64_t number;                                              ///< of its place on the curve
+      CellPlace<dim> place;                                              ///< numbers along the axes of the box
+      unsigned int index;                                                ///< active cell index
+      dealii::types::subdomain_id owner;                                 ///< rank
+      typename dealii::Triangulation<dim>::active_cell_iterator in_mesh; ///< the cell of the mesh
     };
 
     /// No cells yet.
@@ -96,6 +97,19 @@ namespace scree
 
     /// Where in cells() the cell of this place is, or `none`.
     unsigned int find(const CellPlace<dim> &place) const;
+
+    /// This rank's cell of the box that is nearest to a place; null if it has none there.
+    const Cell *own_cell_at(const dealii::Point<dim> &x) const
+    {
+      const unsigned int entry = find(cells_of_box.place_near(x));
+      return entry == none || !is_owned(cell_list[entry]) ? nullptr : &cell_list[entry];
+    }
+
+    /// A place, m, in a cell, from 0 to 1 along each axis.
+    dealii::Point<dim> place_in(const Cell &cell, const dealii::Point<dim> &x) const
+    {
+      return dealii::Point<dim>((x - cells_of_box.corner(cell.place)) / cells_of_box.width);
+    }
 
     /// Where in cells() the cell with this active cell index is, or `none`.
     unsigned int of_index(const unsigned int index) const

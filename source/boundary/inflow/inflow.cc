@@ -37,7 +37,6 @@ namespace scree
   {
     normal[face / 2] = face % 2 == 0 ? 1. : -1.;
     find_places(parameters, ground);
-    reinit();
     on_all_ranks(grid.communicator(), [&] { mean_velocity = velocity_of(hydrograph.value(0.)); });
   }
 
@@ -89,31 +88,6 @@ namespace scree
 
 
   template <int dim>
-  void Inflow<dim>::reinit()
-  {
-    own_cells.clear();
-    const CellsOfBox<dim> &box = grid.fine_cells().box();
-    CellPlace<dim> lower = cells_of_layer.front(), upper = lower;
-    for (const CellPlace<dim> &cell : cells_of_layer)
-      for (unsigned int a = 0; a < dim; ++a)
-        {
-          lower[a] = std::min(lower[a], cell[a]);
-          upper[a] = std::max(upper[a], cell[a]);
-        }
-    for (const auto &cell : grid.triangulation().active_cell_iterators())
-      if (cell->is_locally_owned() && holds_nodes(cell))
-        {
-          const CellPlace<dim> place = box.place_of_corner(cell->vertex(0));
-          bool is_near               = true;
-          for (unsigned int a = 0; a < dim; ++a)
-            is_near = is_near && place[a] >= lower[a] - 1 && place[a] <= upper[a] + 1;
-          if (is_near)
-            own_cells.emplace(place, cell);
-        }
-  }
-
-
-  template <int dim>
   bool Inflow<dim>::moves(const unsigned int node) const
   {
     if (!is_at_wall || !((grid.node_faces(node) >> face) & 1))
@@ -146,10 +120,10 @@ namespace scree
       {
         Point<dim> x = place.location;
         x[face / 2]  = section;
-        if (const CellIterator *cell = cell_at(x))
+        if (const auto *cell = grid.fine_cells().own_cell_at(x))
           {
-            const auto at_vertices = pressure((*cell)->active_cell_index());
-            const Point<dim> in_cell((x - (*cell)->vertex(0)) / grid.cell_size());
+            const auto at_vertices   = pressure(cell->index);
+            const Point<dim> in_cell = grid.fine_cells().place_in(*cell, x);
             for (unsigned int v = 0; v < at_vertices.size(); ++v)
               force += place.volume / spacing * at_vertices[v] * GeometryInfo<dim>::d_linear_shape_function(in_cell, v);
           }
@@ -164,15 +138,13 @@ namespace scree
     const double entered = front - n_layers * spacing;
     if (!is_open || !(entered > 0.))
       return;
-    const double width = grid.cell_size();
     for (const Place &place : layer)
       {
         Point<dim> middle = place.location;
         middle[face / 2]  = section + 0.5 * entered * normal[face / 2];
-        if (const CellIterator *cell = cell_at(middle))
-          mixture.add_entering((*cell)->active_cell_index(),
-                               Point<dim>((middle - (*cell)->vertex(0)) / width),
-                               place.volume * entered / spacing);
+        if (const auto *cell = grid.fine_cells().own_cell_at(middle))
+          mixture.add_entering(
+              cell->index, grid.fine_cells().place_in(*cell, middle), place.volume * entered / spacing);
       }
   }
 

@@ -16,8 +16,6 @@ namespace scree
   class Inflow
   {
   public:
-    using CellIterator = typename dealii::Triangulation<dim>::active_cell_iterator; ///< cells of the mesh
-
     /// A point of a layer.
     struct Place
     {
@@ -34,9 +32,6 @@ namespace scree
            const double spacing,
            const double porosity,
            const LevelSet<dim> *ground);
-
-    /// Finds the cells of the section on the grid's current mesh.
-    void reinit();
 
     /// Sets velocity() to the mean of the step, s, that comes.
     void begin_step(const double time, const double time_step)
@@ -99,13 +94,6 @@ namespace scree
       return open_area;
     }
 
-    /// This rank's fine cell near the section that holds a place; null if there is none.
-    const CellIterator *cell_at(const dealii::Point<dim> &x) const
-    {
-      const auto entry = own_cells.find(grid.fine_cells().box().place_near(x));
-      return entry == own_cells.end() ? nullptr : &entry->second;
-    }
-
     /// Whether the inflow moves a node of the grid.
     bool moves(const unsigned int node) const;
 
@@ -158,7 +146,6 @@ namespace scree
     std::vector<CellPlace<dim>> cells_of_layer; // those of its points, each once
     Blocks section_blocks;
     double open_area = 0;
-    std::map<CellPlace<dim>, CellIterator> own_cells; // near the section
     dealii::Tensor<1, dim> mean_velocity;
     double step_advance         = 0; // m
     double front                = 0; // how far what has entered first would have come, along the normal, m
