@@ -327,10 +327,10 @@ void test(const std::string &basis, const double volume, const std::vector<doubl
 
 
 const UnitTest registered("pressure_pair", [] {
-  test<2>("spline", 0.262347, { 0.000816676, 0.00108511 });
-  test<3>("spline", 0.157837, { 2.87803e-05, 0.00290011 });
-  test<2>("linear", 0.262347, { 0.000629316, 0.00156758 });
-  test<3>("linear", 0.157837, { 3.45843e-05, 0.00773974 });
+  test<2>("spline", 0.262347, { 0.000816959, 0.00115717 });
+  test<3>("spline", 0.157837, { 2.87809e-05, 0.00316611 });
+  test<2>("linear", 0.262347, { 0.000629994, 0.00190495 });
+  test<3>("linear", 0.157837, { 3.45865e-05, 0.00937224 });
 });
 } // namespace test_pressure_pair
 
