@@ -36,8 +36,8 @@ namespace scree
   std::string Raster::text_of(const unsigned int column, const unsigned int row) const
   {
     return number_text((*this)(column, row)) + " m in row " + std::to_string(n_rows - row) + ", column " +
-           std::to_string(column + 1) + " (x = " + number_text(x + column * spacing) +
-           ", y = " + number_text(y + row * spacing) + ")";
+           std::to_string(column + 1) + " (x = " + coordinate_text(x + column * spacing) +
+           ", y = " + coordinate_text(y + row * spacing) + ")";
   }
 
 

@@ -50,7 +50,14 @@ namespace scree
 
   std::string number_text(const double value)
   {
-    // Coordinates of maps, of some 1e6 m, to the centimetre.
+    std::ostringstream text;
+    text << value;
+    return text.str();
+  }
+
+
+  std::string coordinate_text(const double value)
+  {
     std::ostringstream text;
     text << std::setprecision(std::abs(value) < 1e5 ? 6 : 9) << value;
     return text.str();
@@ -61,7 +68,7 @@ namespace scree
   {
     std::vector<std::string> words;
     for (const double value : values)
-      words.push_back(number_text(value));
+      words.push_back(coordinate_text(value));
     return boost::algorithm::join(words, ", ");
   }
 

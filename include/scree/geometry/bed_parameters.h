@@ -42,8 +42,8 @@ namespace scree
     void require_cover(const unsigned int axis, const double first, const double last, const double rounding) const
     {
       require(first <= lower[axis] + rounding && last >= upper[axis] - rounding,
-              std::string("the ground reaches from ") + "xyz"[axis] + " = " + number_text(first) + " to " +
-                  number_text(last) +
+              std::string("the ground reaches from ") + "xyz"[axis] + " = " + coordinate_text(first) + " to " +
+                  coordinate_text(last) +
                   " m only and does not cover the box of subsection Mesh. Write a longer ground or a smaller box.");
     }
   };

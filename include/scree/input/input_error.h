@@ -48,6 +48,9 @@ namespace scree
   /// A number as a user would write it.
   std::string number_text(const double value);
 
+  /// A coordinate, m: those of maps, of some 1e6 m, to the centimetre.
+  std::string coordinate_text(const double value);
+
   /// An entry with its value, as messages begin.
   struct EntryValue
   {

@@ -80,6 +80,6 @@ const UnitTest registered_test("registered_law", run);
 
 // Output:
 // Herschel-Bulkley; linear elastic; Moduli; Mohr-Coulomb; Nor-Sand; Nor-Sand (Jefferies-Been); rigid; Tresca;
-// subsection Soil/Moduli, entry "Shear modulus" = 3000000
+// subsection Soil/Moduli, entry "Shear modulus" = 3e+06
 // 3 3 5
 // subsection Soil/Moduli, entry "Bulk modulus" = 0: a positive modulus is needed.
