@@ -3,7 +3,8 @@
 #define scree_contact_bodies_contact_normals_h
 
 #include <scree/bodies/soil_body.h>
-#include <scree/contact/bodies/body_group.h>
+#include <scree/boundary/constraints.h>
+#include <scree/mesh/node_values.h>
 #include <scree/contact/contact_parameters.h>
 #include <scree/contact/node_shapes.h>
 #include <scree/tensor/vector.h>
@@ -14,6 +15,31 @@
 
 namespace scree
 {
+  /// A group of bodies that stick to each other, at the nodes. What it refers to must live on.
+  template <int dim>
+  struct BodyGroup
+  {
+    unsigned int number;                 ///< SoilBody::group of its bodies
+    NodalField<dim> *field;              ///< nodal field of the group
+    const Constraints<dim> *constraints; ///< constraints of its nodes
+
+    /// Whether the group has mass at a node, or is rigid there.
+    bool acts_on(const unsigned int node) const
+    {
+      if ((*field)[node][NodalField<dim>::mass] > 0.)
+        return true;
+      const NodeConstraints<dim> *walls = constraints->at(node);
+      return walls != nullptr && walls->is_rigid;
+    }
+
+    /// 1/kg, of a node that it acts on.
+    double inverse_mass(const unsigned int node) const
+    {
+      const NodeConstraints<dim> *walls = constraints->at(node);
+      return walls != nullptr && walls->is_rigid ? 0. : 1. / (*field)[node][NodalField<dim>::mass];
+    }
+  };
+
   /// Normals and gaps at the nodes that two groups of bodies act on.
   ///
   /// The normal at a node, one for both groups, is the best of three: along the gradient of the first group's volume,
