@@ -22,46 +22,25 @@ namespace scree
   template <int dim>
   void GroundRows<dim>::add(const GroundRow<dim> &row,
                             const CutFacet<dim> &facet,
-                            const Tensor<1, dim> &admissible,
                             const double least_mass,
-                            const MixtureNodes<dim> &nodes)
+                            const NodalField<dim> &phase,
+                            const PoreField<dim> *pores)
   {
-    const NodalField<dim> &field = row.phase == Phase::soil ? nodes.soil : nodes.water;
     all.push_back(row);
-    all.back().flow = Tensor<1, dim>();
     facets.push_back(&facet);
+    Tensor<1, dim> &flow = all.back().flow = Tensor<1, dim>();
     for (unsigned int i = 0; i < facet.shapes.size(); ++i)
       {
         const unsigned int node = grid.nodes(facet.cell)[i];
-        const double porosity   = 1. - nodes.pores[node][PoreField<dim>::grain_fraction];
-        const double mass       = field[node][NodalField<dim>::mass];
-        const bool acts         = row.phase == Phase::soil || porosity > 0.;
+        const double *values    = phase[node];
+        const double mass       = values[NodalField<dim>::mass];
+        const double porosity   = pores ? 1. - (*pores)[node][PoreField<dim>::grain_fraction] : 0.;
+        const bool acts         = mass > 0. && (row.phase == Phase::soil || porosity > 0.);
         of_flow.push_back(acts ? row.area * std::min(facet.shapes[i], mass / least_mass) : 0.);
         of_discharge.push_back(of_flow.back() * (row.phase == Phase::soil ? -1. : acts ? 1. / porosity - 1. : 0.));
-        all.back().flow += of_flow.back() * (vector_of<dim>(field[node] + NodalField<dim>::velocity) - admissible);
-      }
-  }
-
-
-  template <int dim>
-  void GroundRows<dim>::add(const GroundRow<dim> &row,
-                            const CutFacet<dim> &facet,
-                            const double least_mass,
-                            const NodalField<dim> &soil)
-  {
-    const unsigned int *nodes = grid.nodes(facet.cell);
-    Tensor<1, dim> flow;
-    for (unsigned int i = 0; i < facet.shapes.size(); ++i)
-      {
-        const double *values = soil[nodes[i]];
-        const double mass    = values[NodalField<dim>::mass];
-        of_flow.push_back(row.area * std::min(facet.shapes[i], mass / least_mass));
-        if (mass > 0.)
+        if (acts)
           flow += of_flow.back() * vector_of<dim>(values + NodalField<dim>::velocity);
       }
-    facets.push_back(&facet);
-    all.push_back(row);
-    all.back().flow = flow;
   }
 
 

@@ -101,19 +101,15 @@ namespace scree
     void clear();
 
     /// Adds a row at a facet, whose shape functions are limited by the mass of the phase at a node: where that is
-    /// light, it hardly counts. Finds the flow.
-    /// @param admissible velocity, m/s
+    /// light, it hardly counts. Finds the flow of the velocity alone.
     /// @param least_mass at which a node counts wholly, kg
-    /// @param nodes whose ghosts hold values
+    /// @param phase of the row; ghosts hold values
+    /// @param pores of a mixture; null: soil without water
     void add(const GroundRow<dim> &row,
              const CutFacet<dim> &facet,
-             const dealii::Tensor<1, dim> &admissible,
              const double least_mass,
-             const MixtureNodes<dim> &nodes);
-
-    /// The same of soil without water; the flow is that of the soil's velocity alone.
-    void
-    add(const GroundRow<dim> &row, const CutFacet<dim> &facet, const double least_mass, const NodalField<dim> &soil);
+             const NodalField<dim> &phase,
+             const PoreField<dim> *pores = nullptr);
 
     /// Adds the forces of the ground under tractions, Pa, to those on u and q, N: this rank's part of -N^T t.
     void add_forces(const Vectors &tractions, FlowField<dim> &forces) const;

@@ -107,7 +107,7 @@ public:
             row.phase  = phase;
             row.area   = 0.1 + 0.05 * pattern(x);
             row.normal = facet.normal;
-            rows.add(row, facets.back(), Tensor<1, dim>(), 0.5, { soil_field, water_field, pores });
+            rows.add(row, facets.back(), 0.5, phase == Phase::soil ? soil_field : water_field, &pores);
           }
       }
   }
