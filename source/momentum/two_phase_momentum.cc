@@ -203,7 +203,6 @@ namespace scree
         const DragBlock<dim> pair = pressed_block_at(nodes, node);
         pressed.all.push_back({ node,
                                 1. - nodes.pores[node][PoreField<dim>::grain_fraction],
-                                pair.soil_mass > 0.,
                                 drag_mobility(pair.soil_mass, pair.water_mass, pair.drag),
                                 PressedNode<dim>::free });
         if (!pair.is_held())
@@ -224,11 +223,7 @@ namespace scree
       {
         if (is_empty(nodes, node))
           continue;
-        const PressedNode<dim> pressed{ node,
-                                        1. - nodes.pores[node][PoreField<dim>::grain_fraction],
-                                        nodes.soil[node][Field<dim>::mass] > 0.,
-                                        {},
-                                        PressedNode<dim>::free };
+        const PressedNode<dim> pressed{ node, 1. - nodes.pores[node][PoreField<dim>::grain_fraction], {}, 0 };
         const SoilAndWater<dim> of_phases = PressedNodes<dim>::forces(pressed, impulses[node]);
         const double least                = closures::least_inertia * water_density * pressure.filled_volume(node);
         const auto add                    = [&](double *values, double &share, const Tensor<1, dim> &impulse) {

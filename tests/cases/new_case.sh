@@ -23,7 +23,7 @@ for scene in $scenes; do
   grep -q "^Written: $scene.prm" said
   grep -q "^set Output directory = results/$scene$" "$scene.prm"
   grep -q "^#" "$scene.prm"
-  awk '$2 == "End" { end = $5 } $2 == "Interval" { n = end / $4 } END { exit !(n >= 20 && n <= 30.001) }' "$scene.prm"
+  awk '$2 == "End" { end = $5 } $2 == "Interval" { n = end / $4 } END { exit !(n >= 20 && n <= 32.001) }' "$scene.prm"
   sed 's/^\( *set End time *=\).*/\1 0.2/' "$scene.prm" >short.prm
   "$scree" short.prm >screen
   grep -q '^Checks' screen

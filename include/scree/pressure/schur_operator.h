@@ -15,9 +15,8 @@ namespace scree
   template <int dim>
   struct PressedNode
   {
-    unsigned int node; ///< owned
-    double porosity;   ///< n_i: of soil alone 0, of water alone 1, and where soil is too far from the water's points
-    bool has_soil;     ///< whether soil has mass there
+    unsigned int node;     ///< owned
+    double porosity;       ///< n_i: of soil alone 0; of water alone, or that sees no grains, 1: soil feels no pressure
     DragMobility mobility; ///< without walls
     unsigned int held;     ///< number of its DragBlock among those that walls hold, or `free`
 
@@ -38,7 +37,7 @@ namespace scree
       for (unsigned int c = 0; c < dim; ++c)
         {
           result.water[c] = node.porosity * (of_flow[c] + of_flow[dim + c]);
-          result.soil[c]  = node.has_soil ? of_flow[c] - result.water[c] : 0.;
+          result.soil[c]  = node.porosity < 1. ? of_flow[c] - result.water[c] : 0.;
         }
       return result;
     }
@@ -48,7 +47,7 @@ namespace scree
     {
       for (unsigned int c = 0; c < dim; ++c)
         {
-          const double soil = node.has_soil ? velocity.soil[c] : 0.;
+          const double soil = node.porosity < 1. ? velocity.soil[c] : 0.;
           of_flow[dim + c]  = node.porosity * (velocity.water[c] - soil);
           of_flow[c]        = soil + of_flow[dim + c];
         }
