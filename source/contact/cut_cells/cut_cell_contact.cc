@@ -186,13 +186,13 @@ namespace scree
                                     const MixtureNodes<dim> &nodes,
                                     const double time_step)
   {
-    const CutFacet<dim> &facet   = cut_cells->segments()[segment];
-    GroundRow<dim> row           = row_of(segment, phase);
-    row.is_unilateral            = is_unilateral;
-    const NodalField<dim> &field = phase == Phase::soil ? nodes.soil : nodes.water;
+    const CutFacet<dim> &facet      = cut_cells->segments()[segment];
+    GroundRow<dim> row              = row_of(segment, phase);
+    row.is_unilateral               = is_unilateral;
+    const NodalField<dim> &field    = phase == Phase::soil ? nodes.soil : nodes.water;
+    const Tensor<1, dim> admissible = admissible_velocity(row, mean_velocity(facet, field), time_step);
     rows.add(row, facet, closures::least_inertia * mass_of_cell, field, &nodes.pores);
-    rows.all.back().flow -=
-        rows.weight_of_row(rows.all.size() - 1) * admissible_velocity(row, mean_velocity(facet, field), time_step);
+    rows.all.back().flow -= rows.weight_of_row(rows.all.size() - 1) * admissible;
   }
 
 
