@@ -174,21 +174,24 @@ namespace scree
     // Soil beside a wall may slide down along it: only its way to the wall, or up it, shows that the wall stops it.
     const double h          = grid.cell_size();
     const Tensor<1, dim> up = -gravity / gravity.norm();
-    for (unsigned int face = 0; face < 2 * dim; ++face)
-      if (const unsigned int a = face / 2; a != upward && !walls->is_open(face))
+    for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
+      const Point<dim> start(vector_of<dim>(point.properties + body.layout.start));
+      const double climbed = up * (point.location - start);
+      for (unsigned int face = 0; face < 2 * dim; ++face)
         {
-          const bool is_lower   = face % 2 == 0;
-          const double at       = (is_lower ? grid.lower_corner() : grid.upper_corner())[a];
-          const std::string end = std::string(", at the wall ") + "xyz"[a] + " = " + number_text(at) + " m (\"" +
-                                  (is_lower ? "Lower" : "Upper") + " corner\")";
-          for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
-            const Point<dim> start(vector_of<dim>(point.properties + body.layout.start));
-            const double distance = std::abs(point.location[a] - at);
-            const double way      = std::max(std::abs(start[a] - at) - distance, up * (point.location - start));
-            if (distance < h && way > h)
-              suspect(wall, way, way, [&] { return name() + end; });
-          });
+          const unsigned int a  = face / 2;
+          const double at       = (face % 2 == 0 ? grid.lower_corner() : grid.upper_corner())[a];
+          const double distance = std::abs(point.location[a] - at);
+          if (a == upward || walls->is_open(face) || distance >= h)
+            continue;
+          const double way = std::max(std::abs(start[a] - at) - distance, climbed);
+          if (way > h)
+            suspect(wall, way, way, [&] {
+              return name() + ", at the wall " + "xyz"[a] + " = " + coordinate_text(at) + " m (\"" +
+                     (face % 2 == 0 ? "Lower" : "Upper") + " corner\")";
+            });
         }
+    });
   }
 
 

@@ -4,9 +4,9 @@
 
 #include <scree/bodies/soil_body.h>
 #include <scree/boundary/constraints.h>
-#include <scree/mesh/node_values.h>
 #include <scree/contact/contact_parameters.h>
 #include <scree/contact/node_shapes.h>
+#include <scree/mesh/node_values.h>
 #include <scree/tensor/vector.h>
 
 #include <array>
