@@ -174,7 +174,8 @@ namespace scree
         const PropertyLayout<dim> layout(material->internal_quantities.size(),
                                          affine,
                                          water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0,
-                                         parameters.damps_skeleton());
+                                         parameters.damps_skeleton(),
+                                         parameters.keeps_places());
         bodies.emplace_back(body.name,
                             body.bulk_density(),
                             body.seeding.grain_density,
@@ -577,7 +578,8 @@ namespace scree
     const InitialStateParameters &state = parameters.find_body(body.name)->initial_state;
     properties[layout.mass]             = body.density * entrant.volume;
     properties[layout.volume]           = entrant.volume;
-    std::copy_n(&entrant.location[0], dim, properties.begin() + layout.start);
+    if (layout.has_start)
+      std::copy_n(&entrant.location[0], dim, properties.begin() + layout.start);
     double stress[n_symmetric_components<dim>] = {};
     if (state.stress_kind() == InitialStress::isotropic)
       std::fill_n(stress, 3, -state.pressure);
@@ -915,9 +917,10 @@ namespace scree
   void Scene<dim>::mark_start()
   {
     for (auto &body : bodies)
-      for_each_point(body.points, [&](const auto &point) {
-        std::copy_n(&point.location[0], dim, point.properties + body.layout.start);
-      });
+      if (body.layout.has_start)
+        for_each_point(body.points, [&](const auto &point) {
+          std::copy_n(&point.location[0], dim, point.properties + body.layout.start);
+        });
   }
 
   template class Scene<2>;

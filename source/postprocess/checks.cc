@@ -40,15 +40,15 @@ namespace scree
   {
     if (has_looked && !is_end && step < last_step + steps_between)
       return false;
-    has_looked = true;
-    last_step  = step;
-    now        = Suspects();
-    has_soil   = std::any_of(bodies.begin(), bodies.end(), [](const auto &body) { return !body.is_rigid; });
+    last_step = step;
+    now       = Suspects();
+    has_soil  = std::any_of(bodies.begin(), bodies.end(), [](const auto &body) { return !body.is_rigid; });
     look_at_speeds(bodies, water);
     look_at_places(bodies, water);
     const double n_all = Utilities::MPI::sum(n_lost, grid.communicator());
     suspect(lost, n_all, n_all, [] { return std::string(); });
     agree(time);
+    has_looked = true;
     return true;
   }
 
@@ -156,41 +156,61 @@ namespace scree
         });
     for (const SoilBody<dim> &body : bodies)
       if (!body.is_rigid)
-        {
-          look_at_dilation(body);
-          if (g > 0. && walls != nullptr)
-            look_at_walls(body);
-        }
+        look_at_dilation(body);
+    if (g > 0. && walls != nullptr)
+      look_at_walls(bodies);
   }
 
 
   template <int dim>
-  void RunChecks<dim>::look_at_walls(const SoilBody<dim> &body)
+  void RunChecks<dim>::look_at_walls(const std::list<SoilBody<dim>> &bodies)
   {
     unsigned int upward = dim - 1;
     for (unsigned int a = 0; a < dim; ++a)
       if (std::abs(gravity[a]) > std::abs(gravity[upward]))
         upward = a;
-    // Soil beside a wall may slide down along it: only its way to the wall, or up it, shows that the wall stops it.
     const double h          = grid.cell_size();
     const Tensor<1, dim> up = -gravity / gravity.norm();
-    for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
-      const Point<dim> start(vector_of<dim>(point.properties + body.layout.start));
-      const double climbed = up * (point.location - start);
-      for (unsigned int face = 0; face < 2 * dim; ++face)
-        {
-          const unsigned int a  = face / 2;
-          const double at       = (face % 2 == 0 ? grid.lower_corner() : grid.upper_corner())[a];
-          const double distance = std::abs(point.location[a] - at);
-          if (a == upward || walls->is_open(face) || distance >= h)
-            continue;
-          const double way = std::max(std::abs(start[a] - at) - distance, climbed);
-          if (way > h)
-            suspect(wall, way, way, [&] {
-              return name() + ", at the wall " + "xyz"[a] + " = " + coordinate_text(at) + " m (\"" +
-                     (face % 2 == 0 ? "Lower" : "Upper") + " corner\")";
-            });
-        }
+    const auto height_of    = [&](const Point<dim> &place) { return up * (place - Point<dim>()); };
+    const auto place_of     = [&](const unsigned int face) {
+      return (face % 2 == 0 ? grid.lower_corner() : grid.upper_corner())[face / 2];
+    };
+    const auto for_each_pair = [&](const auto &act) { // of a point and a side wall
+      for (const SoilBody<dim> &body : bodies)
+        if (!body.is_rigid)
+          for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
+            for (unsigned int face = 0; face < 2 * dim; ++face)
+              if (face / 2 != upward && !walls->is_open(face))
+                act(point.location, face, std::abs(point.location[face / 2] - place_of(face)), name);
+          });
+    };
+    if (!has_looked)
+      {
+        for (unsigned int face = 0; face < 2 * dim; ++face)
+          front_at_start[face] = (grid.upper_corner() - grid.lower_corner())[face / 2];
+        top_at_start.fill(std::numeric_limits<double>::lowest());
+        for_each_pair([&](const Point<dim> &place, const unsigned int face, const double distance, const auto &) {
+          front_at_start[face] = std::min(front_at_start[face], distance);
+          if (distance < h)
+            top_at_start[face] = std::max(top_at_start[face], height_of(place));
+        });
+        for (unsigned int face = 0; face < 2 * dim; ++face)
+          {
+            front_at_start[face] = Utilities::MPI::min(front_at_start[face], grid.communicator());
+            top_at_start[face]   = Utilities::MPI::max(top_at_start[face], grid.communicator());
+          }
+      }
+    // Soil that stands at a wall at the start may slide down along it: only its way up shows that the wall stops it.
+    for_each_pair([&](const Point<dim> &place, const unsigned int face, const double distance, const auto &name) {
+      if (distance >= h)
+        return;
+      const double way =
+          front_at_start[face] < h ? height_of(place) - top_at_start[face] : front_at_start[face] - distance;
+      if (way > h)
+        suspect(wall, way, way, [&] {
+          return name() + ", at the wall " + "xyz"[face / 2] + " = " + coordinate_text(place_of(face)) + " m (\"" +
+                 (face % 2 == 0 ? "Lower" : "Upper") + " corner\")";
+        });
     });
   }
 

@@ -161,8 +161,7 @@ namespace scree
     std::shared_ptr<Picture> picture_of_soil(const std::list<SoilBody<dim>> &bodies,
                                              const BackgroundGrid<dim> &grid,
                                              const NodalField<dim> &field,
-                                             const WaterView<dim> *view,
-                                             const bool with_displacement)
+                                             const WaterView<dim> *view)
     {
       const auto picture          = std::make_shared<PatchOutput<0, dim>>();
       PatchOutput<0, dim> &output = *picture;
@@ -181,7 +180,8 @@ namespace scree
           output.add({ "seepage_velocity", "m/s", FieldKind::vector });
         }
       output.add({ "id", "-" });
-      if (with_displacement)
+      const bool has_displacement = !bodies.empty() && bodies.front().layout.has_start;
+      if (has_displacement)
         output.add({ "displacement", "m", FieldKind::vector });
       LawFields<dim> law_fields(bodies, output);
 
@@ -210,7 +210,7 @@ namespace scree
                     rows.put(n * relative_velocity_at(x, grid, cell.cell, field, view->field));
                   }
                 rows.put(static_cast<double>(*id++));
-                if (with_displacement)
+                if (has_displacement)
                   rows.put(point.location - Point<dim>(vector_of<dim>(properties + body.layout.start)));
                 law_fields.put(rows, body, properties);
               });
@@ -337,7 +337,7 @@ namespace scree
     if (with_grid || view)
       contents = contents_of_cells(bodies, view ? view->water : no_water, grid);
     if (!bodies.empty())
-      add("points", point_files, time, picture_of_soil(bodies, grid, field, view, with_displacement), files);
+      add("points", point_files, time, picture_of_soil(bodies, grid, field, view), files);
     if (view)
       add("water", water_files, time, picture_of_water(grid, field, *view, contents), files);
     if (with_grid)

@@ -49,6 +49,7 @@ namespace scree
     void serialize(Archive &archive, const unsigned int)
     {
       archive &worst &is_told &last_step &has_looked &has_soil &usual_speed_of_soil &usual_speed_of_water;
+      archive &front_at_start &top_at_start;
     }
 
   private:
@@ -60,7 +61,7 @@ namespace scree
       shrinkage, ///< V_0/V of soil
       dilation,  ///< V/V_0 of soil in contact, mean of a cell
       stress, ///< p' or vertical stress, the smaller, over rho g H of the soil, H from its lowest to its highest point
-      wall,   ///< way to a closed side wall or up it, m, of soil within a cell of it, if above a cell
+      wall,   ///< way of the soil to a closed side wall or up it, m, where it comes within a cell, if above a cell
       lost,   ///< points of soil that left the box
       n_checks
     };
@@ -91,7 +92,7 @@ namespace scree
 
     void look_at_places(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water);
     void look_at_dilation(const SoilBody<dim> &body);
-    void look_at_walls(const SoilBody<dim> &body);
+    void look_at_walls(const std::list<SoilBody<dim>> &bodies);
     void look_at_speeds(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water);
 
     /// Takes the worst of all ranks and logs what is wrong for the first time. Collective.
@@ -105,6 +106,8 @@ namespace scree
     const DiscreteLevelSet<dim> *bed;
     const BoundaryConditions<dim> *walls;
     RunFolder &folder;
+    std::array<double, 2 * dim> front_at_start;                 // smallest distance of soil from each face, m
+    std::array<double, 2 * dim> top_at_start;                   // height of the highest soil within a cell of it, m
     double usual_speed_of_soil = 0., usual_speed_of_water = 0.; // largest 99.9 % quantiles so far, m/s
     Suspects now, worst;
     std::array<bool, n_checks> is_told{};

@@ -182,15 +182,10 @@ namespace scree
   {
   public:
     /// Begins with empty lists of files.
-    /// @param with_displacement whether the soil points have it
     /// @param run_folder path
-    Graphics(const BackgroundGrid<dim> &grid,
-             const OutputParameters &parameters,
-             const bool with_displacement,
-             const std::string &run_folder)
+    Graphics(const BackgroundGrid<dim> &grid, const OutputParameters &parameters, const std::string &run_folder)
         : grid(grid)
         , pictures(parameters.graphics_kind())
-        , with_displacement(with_displacement)
         , folder(run_folder + "/solution/")
         , rank(dealii::Utilities::MPI::this_mpi_process(grid.communicator()))
         , n_ranks(dealii::Utilities::MPI::n_mpi_processes(grid.communicator()))
@@ -259,7 +254,6 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     const Pictures pictures;
-    const bool with_displacement;
     const std::string folder;
     const unsigned int rank, n_ranks;
     std::vector<TimeAndFile> point_files, water_files, grid_files;

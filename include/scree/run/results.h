@@ -31,10 +31,7 @@ namespace scree
         , scene(scene)
         , scheme(scheme)
         , folder(folder)
-        , graphics(scene.grid,
-                   parameters.output,
-                   parameters.probes.displacement || parameters.settling.maximum_time > 0.,
-                   parameters.output_directory)
+        , graphics(scene.grid, parameters.output, parameters.output_directory)
         , statistics(scene.grid,
                      scene.forcing.gravity(),
                      { !scene.loads.empty(),

@@ -101,7 +101,7 @@ void test_graphics()
   if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
     std::filesystem::create_directories(solution);
   MPI_Barrier(MPI_COMM_WORLD);
-  Graphics<dim> graphics(scene.grid, OutputParameters(), /* with_displacement */ false, folder);
+  Graphics<dim> graphics(scene.grid, OutputParameters(), folder);
   const WaterView<dim> view{ scene.water, scene.water_field, [](const unsigned int) {
                               std::array<double, (1 << dim)> corners;
                               corners.fill(100.);
