@@ -147,9 +147,7 @@ namespace scree
       }
     else
       {
-        CubicWeights<dim> integrals;
-        for (const Simplex<dim> &simplex : cut.open)
-          integrals.add(simplex);
+        const CubicWeights<dim> integrals(cut.open);
         cut.open_fraction = integrals.fraction;
         cut.weights       = integrals.weights;
         cut.open_hats     = integrals.hats;

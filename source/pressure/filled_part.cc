@@ -46,9 +46,8 @@ namespace scree
       , cut_cells(cut_cells)
       , gaps(gaps)
       , unit_cube(simplices_of_cube(Point<dim>(), 1.))
+      , whole(unit_cube)
   {
-    for (const Simplex<dim> &simplex : unit_cube)
-      whole.add(simplex);
   }
 
 
@@ -56,30 +55,47 @@ namespace scree
   template <int n>
   void FilledPart<dim>::integrate(const CubicWeights<dim> &part, const OpenKnots open, NodeRow *integrals) const
   {
-    constexpr unsigned int n_1d = CubicWeights<dim>::n_1d, rows_of_cell = RowFactors<dim, n>::n_rows;
-    const double volume = Utilities::fixed_power<dim>(grid.cell_size()), area = volume / grid.cell_size();
-    for (unsigned int q = 0; q < CubicWeights<dim>::n_points; ++q)
+    constexpr unsigned int n_1d = CubicWeights<dim>::n_1d, rows_of_cell = RowFactors<dim, n>::n_rows,
+                           n_row_hats = n_vertices / 2;
+    const Point<dim> origin;
+    const auto &points = CubicWeights<dim>::points();
+    const double area  = Utilities::fixed_power<dim - 1>(grid.cell_size());
+    // First over the points of the other axes: a lane a point of the first one, of values and of derivatives.
+    NodeRow sums[dim][n_row_hats][rows_of_cell]{};
+    for (unsigned int s = 0; s < CubicWeights<dim>::n_points / n_1d; ++s)
       {
-        Point<dim> x;
-        for (unsigned int a = 0, rest = q; a < dim; ++a, rest /= n_1d)
-          x[a] = CubicWeights<dim>::points()[rest % n_1d];
-        const CellBasis<dim, n> basis(x, open);
-        const RowFactors<dim, n> rows(basis);
-        const NodeRow value_x = make_row(basis.value[0]), derivative_x = make_row(basis.derivative[0]);
-        const double weight = part.weights[q];
-        std::array<double, n_vertices> hats;
-        for (unsigned int v = 0; v < n_vertices; ++v)
-          hats[v] = area * weight * GeometryInfo<dim>::d_linear_shape_function(x, v);
-        for (unsigned int r = 0; r < rows_of_cell; ++r)
+        Point<dim> x = origin;
+        for (unsigned int a = 1, rest = s; a < dim; ++a, rest /= n_1d)
+          x[a] = points[rest % n_1d];
+        const RowFactors<dim, n> rows(CellBasis<dim, n>(x, open));
+        const NodeRow weights = load_row(&part.weights[s * n_1d]);
+        for (unsigned int v = 0; v < n_row_hats; ++v)
           {
-            for (unsigned int c = 0; c < dim; ++c)
+            const NodeRow hat = weights * GeometryInfo<dim>::d_linear_shape_function(x, 2 * v);
+            for (unsigned int r = 0; r < rows_of_cell; ++r)
               {
-                const NodeRow slope =
-                    c == 0 ? derivative_x * rows.value[r] : value_x * rows.derivative[c > 0 ? c - 1 : 0][r];
-                for (unsigned int v = 0; v < n_vertices; ++v)
-                  integrals[(c * n_vertices + v) * rows_of_cell + r] += hats[v] * slope;
+                sums[0][v][r] += hat * rows.value[r];
+                for (unsigned int c = 1; c < dim; ++c)
+                  sums[c][v][r] += hat * rows.derivative[c - 1][r];
               }
-            integrals[dim * n_vertices * rows_of_cell + r] += value_x * (volume * weight * rows.value[r]);
+          }
+      }
+    for (unsigned int q = 0; q < n_1d; ++q)
+      {
+        const CellBasis<dim, n> basis(origin + points[q] * Point<dim>::unit_vector(0), open);
+        const NodeRow value_x = make_row(basis.value[0]), derivative_x = make_row(basis.derivative[0]);
+        for (unsigned int v = 0; v < n_vertices; ++v)
+          {
+            const double hat         = area * (v % 2 ? points[q] : 1. - points[q]);
+            const NodeRow hat_values = hat * value_x, hat_slopes = hat * derivative_x;
+            for (unsigned int r = 0; r < rows_of_cell; ++r)
+              {
+                const double value = sums[0][v / 2][r][q];
+                integrals[v * rows_of_cell + r] += hat_slopes * value;
+                for (unsigned int c = 1; c < dim; ++c)
+                  integrals[(c * n_vertices + v) * rows_of_cell + r] += hat_values * sums[c][v / 2][r][q];
+                integrals[dim * n_vertices * rows_of_cell + r] += hat_values * (grid.cell_size() * value);
+              }
           }
       }
   }
@@ -118,10 +134,7 @@ namespace scree
     for (Simplex<dim> &simplex : simplices)
       for (SimplexCorner<dim> &corner : simplex)
         corner.side = interpolate<dim>(depths, corner.place);
-    CubicWeights<dim> part;
-    for (const Simplex<dim> &simplex : open_part(std::move(simplices), linear_crossing<dim>))
-      part.add(simplex);
-    return part;
+    return CubicWeights<dim>(open_part(std::move(simplices), linear_crossing<dim>));
   }
 
 
@@ -148,31 +161,38 @@ namespace scree
 
   template <int dim>
   template <int n>
-  void FilledPart<dim>::integrate_face(const SimplexFace<dim> &face,
-                                       const Tensor<1, dim> &normal,
-                                       const OpenKnots open,
-                                       NodeRow *integrals,
-                                       AtVertices &hats) const
+  void FilledPart<dim>::integrate_faces(const std::vector<SimplexFace<dim>> &faces,
+                                        const Tensor<1, dim> &normal,
+                                        const OpenKnots open,
+                                        NodeRow *integrals,
+                                        AtVertices &hats) const
   {
     static const QWitherdenVincentSimplex<dim - 1> rule(4);
     constexpr unsigned int rows_of_cell = RowFactors<dim, n>::n_rows;
-    const double area                   = area_of<dim>(face).norm() * Utilities::fixed_power<dim - 1>(grid.cell_size());
-    std::array<Point<dim>, dim> corners;
-    for (unsigned int i = 0; i < dim; ++i)
-      corners[i] = face[i].place;
-    visit_rule<dim>(rule, corners, [&](const Point<dim> &x, const double part) {
-      const CellBasis<dim, n> basis(x, open);
-      const RowFactors<dim, n> rows(basis);
-      const NodeRow value_x = make_row(basis.value[0]);
+    NodeRow sums[n_vertices][rows_of_cell]{};
+    for (const SimplexFace<dim> &face : faces)
+      {
+        const double area = area_of<dim>(face).norm() * Utilities::fixed_power<dim - 1>(grid.cell_size());
+        std::array<Point<dim>, dim> corners;
+        for (unsigned int i = 0; i < dim; ++i)
+          corners[i] = face[i].place;
+        visit_rule<dim>(rule, corners, [&](const Point<dim> &x, const double part) {
+          const CellBasis<dim, n> basis(x, open);
+          const RowFactors<dim, n> rows(basis);
+          const NodeRow value_x = make_row(basis.value[0]);
+          for (unsigned int v = 0; v < n_vertices; ++v)
+            {
+              const double hat = part * area * GeometryInfo<dim>::d_linear_shape_function(x, v);
+              hats[v] += hat;
+              for (unsigned int r = 0; r < rows_of_cell; ++r)
+                sums[v][r] += value_x * (hat * rows.value[r]);
+            }
+        });
+      }
+    for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int v = 0; v < n_vertices; ++v)
-        {
-          const double hat = part * area * GeometryInfo<dim>::d_linear_shape_function(x, v);
-          hats[v] += hat;
-          for (unsigned int c = 0; c < dim; ++c)
-            for (unsigned int r = 0; r < rows_of_cell; ++r)
-              integrals[(c * n_vertices + v) * rows_of_cell + r] -= value_x * (hat * normal[c] * rows.value[r]);
-        }
-    });
+        for (unsigned int r = 0; r < rows_of_cell; ++r)
+          integrals[(c * n_vertices + v) * rows_of_cell + r] -= normal[c] * sums[v][r];
   }
 
 
@@ -187,8 +207,9 @@ namespace scree
     std::vector<SimplexFace<dim>> faces{ face };
     for (SimplexCorner<dim> &corner : faces[0])
       corner.side = interpolate<dim>(depths, corner.place);
-    for (const SimplexFace<dim> &wet : open_part(std::move(faces), linear_crossing<dim>))
-      with_nodes_1d(grid, [&](auto n) { integrate_face<n>(wet, normal, open, &all_integrals[integrals], hats); });
+    const auto wet = open_part(std::move(faces), linear_crossing<dim>);
+    if (!wet.empty())
+      with_nodes_1d(grid, [&](auto n) { integrate_faces<n>(wet, normal, open, &all_integrals[integrals], hats); });
     return hats;
   }
 

@@ -45,8 +45,10 @@ namespace scree
     std::array<double, n_hats> hats{};      ///< integrals of the linear functions, over the volume of the cell
     double fraction = 0.;                   ///< of the volume
 
-    /// Adds a simplex of the unit cell.
-    void add(const Simplex<dim> &simplex);
+    CubicWeights() = default;
+
+    /// Integrates over simplices of the unit cell.
+    explicit CubicWeights(const std::vector<Simplex<dim>> &simplices);
 
     /// The Gauss points along an axis.
     static const Along &points()

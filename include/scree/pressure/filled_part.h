@@ -109,11 +109,11 @@ namespace scree
     void add_ground(const CutCell<dim> &cut, const AtVertices &depths, const OpenKnots open, const double time_step);
 
     template <int n>
-    void integrate_face(const SimplexFace<dim> &face,
-                        const dealii::Tensor<1, dim> &normal,
-                        const OpenKnots open,
-                        NodeRow *integrals,
-                        AtVertices &hats) const;
+    void integrate_faces(const std::vector<SimplexFace<dim>> &faces,
+                         const dealii::Tensor<1, dim> &normal,
+                         const OpenKnots open,
+                         NodeRow *integrals,
+                         AtVertices &hats) const;
 
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &vertices;
@@ -121,7 +121,7 @@ namespace scree
     const CutCells<dim> *cut_cells; // may be null
     const GroundGaps<dim> &gaps;
     const std::vector<Simplex<dim>> unit_cube;
-    CubicWeights<dim> whole;
+    const CubicWeights<dim> whole;
     std::map<unsigned int, unsigned int> integrals_of_whole; // at the front of all_integrals, by knots and faces
     std::size_t end_of_whole = 0;
     std::vector<NodeRow> all_integrals;
