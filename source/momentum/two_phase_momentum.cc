@@ -196,10 +196,19 @@ namespace scree
     PressedNodes<dim> &pressed = pressure.pressed_nodes;
     pressed.all.clear();
     pressed.held.clear();
+    pressed.without_grains.clear();
+    const auto look_for_grains = [&](const unsigned int node) {
+      if (nodes.soil[node][Field<dim>::mass] > 0. && nodes.water[node][Field<dim>::mass] > 0. &&
+          nodes.pores[node][PoreField<dim>::grain_fraction] <= 0.)
+        pressed.without_grains.push_back(node);
+    };
+    for (unsigned int node = grid.n_owned_nodes(); node < grid.numbering().n_local(); ++node)
+      look_for_grains(node);
     for (const unsigned int node : nodes.pores.active_nodes())
       {
         if (is_empty(nodes, node))
           continue;
+        look_for_grains(node);
         const DragBlock<dim> pair = pressed_block_at(nodes, node);
         pressed.all.push_back({ node,
                                 1. - nodes.pores[node][PoreField<dim>::grain_fraction],

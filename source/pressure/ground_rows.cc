@@ -35,8 +35,7 @@ namespace scree
         const double *values    = phase[node];
         const double mass       = values[NodalField<dim>::mass];
         const double porosity   = pores ? 1. - (*pores)[node][PoreField<dim>::grain_fraction] : 0.;
-        // Where no water sees the grains, the variables of the pressure are those of the water alone.
-        const bool acts = mass > 0. && (row.phase == Phase::soil ? porosity < 1. : porosity > 0.);
+        const bool acts         = mass > 0. && (row.phase == Phase::soil || porosity > 0.);
         of_flow.push_back(acts ? row.area * std::min(facet.shapes[i], mass / least_mass) : 0.);
         of_discharge.push_back(of_flow.back() * (row.phase == Phase::soil ? -1. : acts ? 1. / porosity - 1. : 0.));
         if (acts)

@@ -109,10 +109,14 @@ namespace scree
   {
     clear_flow();
     pair.add_force(pressure, flow);
-    if (tractions != nullptr && !tractions->empty())
-      rows->add_forces(*tractions, flow);
     if (suction != nullptr)
       pair.add_suction(*suction, flow);
+    if (tractions != nullptr)
+      {
+        nodes->pass_on_forces(flow);
+        if (!tractions->empty())
+          rows->add_forces(*tractions, flow);
+      }
     flow.add_contributions();
     for (const unsigned int node : flow.active_nodes())
       for (unsigned int c = 0; c < 2 * dim; ++c)
@@ -136,6 +140,7 @@ namespace scree
 
     clear_flow();
     pair.add_force(full, flow);
+    nodes->pass_on_forces(flow);
     if (!tractions.empty())
       rows->add_forces(tractions, flow);
     flow.add_contributions();
@@ -150,6 +155,7 @@ namespace scree
     flows.clear();
     if (!tractions.empty())
       rows->find_flows(flow, flows);
+    nodes->pass_on_flow(flow);
     surface.clear(target);
     pair.add_divergence(flow, target);
     add_hourglass(1., full, target);
@@ -213,6 +219,7 @@ namespace scree
                                     vector_of<dim>(of_mixture.water[node.node] + NodalField<dim>::velocity) },
                                   flow[node.node]);
     flow.update_ghosts();
+    nodes->pass_on_flow(flow);
     surface.clear(target);
     pair.add_divergence(flow, target);
     for (const auto &cell : part.cells())

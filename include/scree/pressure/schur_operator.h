@@ -17,7 +17,7 @@ namespace scree
   {
     unsigned int node;     ///< owned
     double porosity;       ///< n_i: of soil alone 0; of water alone, or that sees no grains, 1: soil feels no pressure
-    DragMobility mobility; ///< without walls
+    DragMobility mobility; ///< without walls; of the soil 0 where no soil takes part
     unsigned int held;     ///< number of its DragBlock among those that walls hold, or `free`
 
     static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int; ///< no wall holds it
@@ -27,8 +27,28 @@ namespace scree
   template <int dim>
   struct PressedNodes
   {
-    std::vector<PressedNode<dim>> all; ///< owned
-    std::vector<DragBlock<dim>> held;  ///< see PressedNode
+    std::vector<PressedNode<dim>> all;        ///< owned
+    std::vector<DragBlock<dim>> held;         ///< see PressedNode
+    std::vector<unsigned int> without_grains; ///< with soil that no water sees; also ghosts
+
+    /// Takes the pair's force on the discharge as one on u, where the force of rows on soil would else be mixed with
+    /// it: there the discharge of the pair is that of the water alone.
+    void pass_on_forces(FlowField<dim> &forces) const
+    {
+      for (const unsigned int node : without_grains)
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            forces[node][c] += forces[node][dim + c];
+            forces[node][dim + c] = 0.;
+          }
+    }
+
+    /// Its transpose: writes u to the discharge that the pair reads, after rows have read theirs.
+    void pass_on_flow(FlowField<dim> &flow) const
+    {
+      for (const unsigned int node : without_grains)
+        std::copy_n(flow[node], dim, flow[node] + dim);
+    }
 
     /// What a force on u and one on q beside it, in a node's numbers of a FlowField, give soil and water, N.
     static SoilAndWater<dim> forces(const PressedNode<dim> &node, const double *of_flow)
@@ -37,7 +57,9 @@ namespace scree
       for (unsigned int c = 0; c < dim; ++c)
         {
           result.water[c] = node.porosity * (of_flow[c] + of_flow[dim + c]);
-          result.soil[c]  = node.porosity < 1. ? of_flow[c] - result.water[c] : 0.;
+          result.soil[c]  = node.porosity < 1.        ? of_flow[c] - result.water[c]
+                            : node.mobility.soil > 0. ? -of_flow[dim + c]
+                                                      : 0.; // of rows alone
         }
       return result;
     }
@@ -47,7 +69,7 @@ namespace scree
     {
       for (unsigned int c = 0; c < dim; ++c)
         {
-          const double soil = node.porosity < 1. ? velocity.soil[c] : 0.;
+          const double soil = node.porosity < 1. || node.mobility.soil > 0. ? velocity.soil[c] : 0.;
           of_flow[dim + c]  = node.porosity * (velocity.water[c] - soil);
           of_flow[c]        = soil + of_flow[dim + c];
         }
