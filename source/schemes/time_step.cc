@@ -18,8 +18,8 @@ namespace scree
                       Patterns::Double(1e-6, 1));
     prm.add_parameter("Maximum time step",
                       maximum,
-                      "s; upper bound of the time step. auto: 0.01 s with water; sqrt(0.2 h/g) in dry cases with "
-                      "gravity; none in dry cases without gravity.");
+                      "s; upper bound of the time step. auto: with water sqrt(0.0005 h/g), but at least 0.01 s; "
+                      "in dry cases sqrt(0.2 h/g) with gravity, none without.");
     prm.add_parameter(
         "Mass scaling",
         mass_scaling,

@@ -433,9 +433,10 @@ namespace scree
           for (unsigned int a = 0; velocity && a < dim; ++a)
             velocity->value(one.location, a);
       });
+      constexpr double least_in_wedge = 0.02; // of a cube: FLIP gives lighter points velocities that no node has
       if (lattice.in_water && lattice.ground)
         for (Seed<dim> &one : seeds)
-          if (const double reach = one.cell->diameter(); one.is_sliver())
+          if (const double reach = one.cell->diameter(); one.is_sliver() && one.filled >= least_in_wedge)
             one.stays = one.stays || lattice.ground->view(one.location, reach).distance < reach;
       Slivers<dim>(lattice.triangulation, lattice.ground, seeds).join();
       require(seeds);

@@ -30,9 +30,9 @@ namespace scree
     /// Throws EntryError if the Courant number or the maximum is no number.
     void check() const;
 
-    /// Sets what is `auto`. In the maximum step dry soil may fall through a tenth of a cell, from rest; with water it
-    /// is 0.01 s, as its results depend on the step. Both maxima grow with the root of the mass scaling, as waves slow
-    /// down by it.
+    /// Sets what is `auto`. In the maximum step dry soil may fall through a tenth of a cell, from rest; with water
+    /// through 1/4000 of a cell, or the step is 0.01 s, as its results depend on it. Both maxima grow with the root of
+    /// the mass scaling, as waves slow down by it.
     /// @param courant_of_transfer see TransferParameters::courant_number()
     /// @param gravity m/s^2; without it there is no maximum in dry scenes
     /// @param cell_size m
@@ -53,13 +53,15 @@ namespace scree
   private:
     void choose_maximum(const bool has_water, const double gravity, const double cell_size)
     {
-      constexpr double part_of_cell = 0.1, of_wet_soil = 1e-2;
+      constexpr double part_of_cell = 0.1, wet_part_of_cell = 2.5e-4, of_wet_soil = 1e-2;
+      const auto fall_through = [&](const double part) { return std::sqrt(2. * part * cell_size / gravity); };
       if (maximum != "auto")
         maximum_time_step = number_of(maximum);
       else if (has_water)
-        maximum_time_step = of_wet_soil * std::sqrt(mass_scaling);
+        maximum_time_step =
+            std::sqrt(mass_scaling) * std::max(of_wet_soil, gravity > 0. ? fall_through(wet_part_of_cell) : 0.);
       else
-        maximum_time_step = gravity > 0. ? std::sqrt(2. * part_of_cell * cell_size * mass_scaling / gravity)
+        maximum_time_step = gravity > 0. ? std::sqrt(mass_scaling) * fall_through(part_of_cell)
                                          : std::numeric_limits<double>::infinity();
     }
   };
