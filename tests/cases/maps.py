@@ -5,6 +5,7 @@ Each test is a function below (case_tools.py).
 """
 
 import csv
+import os
 import pathlib
 import shutil
 import sys
@@ -15,7 +16,7 @@ from scree.maps import find_map
 from scree.results import read_raster, read_table
 from scree.variants import read_case, set_entries
 
-from case_tools import HERE, check, run
+from case_tools import check, run
 
 NAMES = ["thickness", "mass", "deposit", "largest_thickness", "largest_speed", "largest_impact_pressure", "arrival_time"]
 MAPS = {"Output/Maps/Write": "true", "Output/Maps/Least thickness": 0.02}
@@ -79,7 +80,7 @@ def block():
 
 def slide():
     """A block on an oblique bed: the maps hold its mass; two ranks and a resumed run have those of one that did not stop."""
-    text = set_entries(read_case(HERE / "bed_short_3d.prm"), {**MAPS, "Soil/Initial velocity": "1; 0.3; -0.46"})  # along the bed
+    text = set_entries(read_case(pathlib.Path(os.environ["CASES"], "bed_short_3d.prm")), {**MAPS, "Soil/Initial velocity": "1; 0.3; -0.46"})  # along the bed
     one = run("one", text)
     first = {name: read_map(one, name) for name in NAMES}
     statistics = read_table(one / "statistics")

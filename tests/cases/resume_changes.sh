@@ -3,7 +3,6 @@
 # resume_changes.sh SCREE LAUNCHER: what --resume says of a case that is no longer that of the checkpoint. What is appended to a
 # case wins over what stands above.
 set -e
-cases=$(dirname -- "$0")
 scree=$1
 short='set End time = 0.01
 subsection Output
@@ -13,7 +12,7 @@ end'
 # base CASE: the short run of the case whose checkpoints are resumed below
 base()
 {
-  printf '%s\n' "include $cases/$1.prm" "$short" >base.prm
+  printf '%s\n' "include $CASES/$1.prm" "$short" >base.prm
   rm -rf results
   "$scree" base.prm >screen
   rm -rf whole
