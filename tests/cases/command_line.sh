@@ -73,12 +73,6 @@ END
   # A subsection that the case does not have yet: the defaults, to be added.
   "$scree" case.prm --print-parameters Water | grep -q 'Hydraulic conductivity *= auto'
   "$scree" --print-parameters --sections case.prm | grep -qx "Sand/Initial state"
-  if "$scree" --print-parameters Sand 2>error; then exit 1; fi
-  cat error
-  grep -q 'no subsection "Sand"' error
-  if "$scree" --print-parameters "initial state" 2>error; then exit 1; fi
-  cat error
-  grep -q 'Did you mean "Soil/Initial state"' error
 }
 
 

@@ -6,7 +6,7 @@ set -e
 cases=$(dirname -- "$0")
 scree=$1
 launcher=$2 # several words
-case=$CASES/$3.prm
+case=$SHORT_CASES/$3.prm
 
 # run NAME RANKS CASE: in a folder of that name
 run()

@@ -5,7 +5,6 @@ and after a resume; drawn by scree.pictures.tables.
 Each test is a function below (case_tools.py).
 """
 
-import csv
 import pathlib
 import sys
 
@@ -15,7 +14,7 @@ from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 from scree.pictures.tables import render_probe
 from scree.results import read_points, read_statistics, read_table, read_times
 
-from case_tools import check, run
+from case_tools import check, rows_of, run
 
 DRY = {"End time": 0.12, "Mesh/Upper corner": "1.6, 0.8", "Mesh/Cell size": 0.1, "Boundaries/Bottom": "friction 30",
        "Soil/Region": "x < 0.5 && y < 0.5", "Soil/Points per cell": 4, "Soil/Initial state/Type": "K0", "Soil/Initial state/K0": 0.683,
@@ -30,8 +29,7 @@ FILES = ["probe_" + name for name in ("toe", "far", "base", "mid", "crest", "fro
 def same_in_csv(results, name, columns):
     """A table and its .csv have the same rows; some columns of the latter have these names."""
     table = read_table(results / name)
-    with open(results / f"{name}.csv", encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(results / f"{name}.csv")
     check(len(rows) == len(next(iter(table.values()))) and len(rows[0]) == len(table), f"{name}.csv: another size")
     for column, (head, values) in zip(rows[0], table.items()):
         others = [float(row[column]) for row in rows]

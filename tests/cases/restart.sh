@@ -9,7 +9,7 @@ set -e
 cases=$(dirname -- "$0")
 scree=$1
 launcher=$2 # several words
-case=$CASES/$3.prm
+case=$SHORT_CASES/$3.prm
 ranks=${6:-2}
 
 # go_on RANKS RANKS_AFTER COMMAND...

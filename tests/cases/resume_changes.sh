@@ -12,7 +12,7 @@ end'
 # base CASE: the short run of the case whose checkpoints are resumed below
 base()
 {
-  printf '%s\n' "include $CASES/$1.prm" "$short" >base.prm
+  printf '%s\n' "include $SHORT_CASES/$1.prm" "$short" >base.prm
   rm -rf results
   "$scree" base.prm >screen
   rm -rf whole

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """scree --safety on a coarse mesh: Griffiths & Lane (1999), example 1, cells of 1 m; the factor is 1.4 by finite elements, 1.38 by Bishop's method."""
 
-import csv
 import pathlib
 import re
 import shutil
@@ -10,7 +9,7 @@ import subprocess
 import sys
 import time
 
-from case_tools import HERE, SCREE, check, run
+from case_tools import HERE, SCREE, check, log_of, rows_of, run
 from scree.variants import read_case, set_entries
 
 CASE = HERE.parents[1] / "prm/slopes/griffiths_lane.prm"
@@ -33,8 +32,7 @@ def slope(case=CASE, **entries):
 
 def trials(folder):
     """The rows of safety.csv."""
-    with open(folder / "safety" / "safety.csv", encoding="utf-8") as file:
-        return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+    return [{name: float(value) for name, value in row.items()} for row in rows_of(folder / "safety" / "safety.csv")]
 
 
 def bracket(rows):
@@ -95,7 +93,7 @@ def range_and_stop():
         search.send_signal(signal.SIGTERM)
     check(search.returncode == 3, f"exit code {search.returncode} of a search that was stopped")
     check(len(trials(folder / "results")) >= 2, "trials are lost")
-    log = (folder / "results" / "safety" / "log.txt").read_text(encoding="utf-8")
+    log = log_of(folder / "results" / "safety")
     check(re.search(r"^   1 +rests .* above 1 +10, about \S+ \w+$", log, re.MULTILINE), f"no range or number of trials: {log}")  # log2(0.6/0.001) = 9.2
     check(re.search(r"^Stopped     factor so far: (above 1|1 to 1\.3)", log, re.MULTILINE), f"no range of a search that was stopped: {log}")
 

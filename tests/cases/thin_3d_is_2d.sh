@@ -8,6 +8,6 @@ scree=$1
 launcher=$2 # several words
 for dimension in 2 3; do
   mkdir -p $dimension
-  (cd $dimension && $launcher $((dimension - 1)) "$scree" "$CASES/$3_${dimension}d.prm" >screen)
+  (cd $dimension && $launcher $((dimension - 1)) "$scree" "$SHORT_CASES/$3_${dimension}d.prm" >screen)
 done
 "$PYTHON" "$cases/compare_statistics.py" 2/results/statistics 3/results/statistics "$4" 0.1

@@ -99,14 +99,14 @@ class Tables:
                 content[int(number) - 1:int(number)] = [as_bytes(text) + b"\n"]
             self.files[name] = b"".join(content) if block.base else content
         self.cases = {name: Case(block, bases) for name, block in sorted(kinds["case"].items())}
-        self.refuse_unused({block.base for block in kinds["case"].values()}, bases)
+        self.refuse_unused({block.base for kind in ("base", "case") for block in kinds[kind].values()}, bases)
 
     def refuse_unused(self, used, bases):
         """Every base and every file belongs to a case."""
         texts = b"\n".join([case.content for case in self.cases.values()] + list(self.files.values()))
         for name in bases:
             if name not in used:
-                raise SystemExit(f"No case starts from base {name}.")
+                raise SystemExit(f"Nothing starts from base {name}.")
         for name in self.files:
             if not re.search(rb"(^|[^\w.])" + re.escape(name.encode()), texts) and pathlib.Path(name).suffix != ".prj":
                 raise SystemExit(f"No case names file {name}.")

@@ -5,7 +5,6 @@ Bounds: p in the fringe 2 %, infiltration of a pond 3 %, fixed before the first 
 Those of the cut were set after its run.
 """
 
-import os
 import re
 
 import numpy as np
@@ -13,7 +12,7 @@ import numpy as np
 from scree import closed_forms
 from scree.results import read_points
 
-from scene_tools import WATER, check, main, run, ways
+from scene_tools import WATER, check, log_of, main, run, ways
 
 YY = 4  # of a stress of 3 x 3 components
 
@@ -73,8 +72,7 @@ def check_rain(name, table, fallen):
     """Rain that fell has entered, fell beside the soil, or waits; what entered is in the box or has left, to rounding."""
     entered, lost = np.array(table["Water entered (kg)"]), np.array(table.get("Water lost (kg)", 0 * np.array(table["Time (s)"])))
     check(name + ": water beside its book, over what entered", max(abs(np.array(table["Water mass (kg)"]) + lost - entered)) / entered[-1], 0, 1e-12)
-    with open(os.path.join(name, "log.txt"), encoding="utf-8") as log:
-        line = re.search(r"Rain at the end: (.*)", log.read()).group(1)
+    line = re.search(r"Rain at the end: (.*)", log_of(name)).group(1)
     fell, *parts = (float(number) for number in re.findall(r" (-?[\d.e+-]+) kg", line))
     check(name + ": rain that fell over rate, area and time", fell / fallen, 1 - 1e-5, 1 + 1e-5)
     check(name + ": rain beside its book, over what fell", abs(sum(parts) - fell) / fell, 0, 1e-5)  # six digits in the log

@@ -88,6 +88,48 @@ bool return_point(const Law &law,
 }
 
 
+/// Strength, Pa, that falls with the plastic shear strain by exp(-rate gamma_p).
+struct FallingStrength
+{
+  double peak, residual, rate;
+};
+
+
+/// Pure shear to `gamma` of a law without friction against tau = residual + (peak - residual) exp(-rate (gamma -
+/// tau/G)) beyond the peak: the largest error over the peak in 1000 steps, and the gain of four times as many, which
+/// is 4.
+template <typename Law>
+void test_falling_shear(const Law &law,
+                        const double gamma,
+                        const FallingStrength &strength,
+                        const double bound,
+                        const double bound_of_gain)
+{
+  const double G   = law.shear_modulus;
+  const auto error = [&](const unsigned int n) {
+    PrincipalValues strain = { { -0.01, -0.01, -0.01 } }, stress;
+    double internal[4] = { 0, 0, 0, strength.peak }, largest = 0; // the last one is that of Tresca's soil
+    UpdateReport report;
+    for (unsigned int step = 1; step <= n; ++step)
+      {
+        const double now = gamma * step / n;
+        strain[0] += gamma / 2 / n;
+        strain[2] -= gamma / 2 / n;
+        return_point(law, strain, internal, 1, stress, report);
+        double exact = std::min(G * now, strength.peak);
+        for (unsigned int i = 0; i < 200 && G * now >= strength.peak; ++i)
+          exact =
+              strength.residual + (strength.peak - strength.residual) * std::exp(-strength.rate * (now - exact / G));
+        largest = std::max(largest, std::abs((stress[0] - stress[2]) / 2 - exact) / strength.peak);
+      }
+    return largest;
+  };
+  const double coarse = error(1000);
+  expect(coarse, 0, bound, "error of tau in 1000 steps");
+  expect(coarse / error(4000), 4, bound_of_gain, "gain of four times as many steps"); // first order
+}
+
+
 /// The kinematics of HenckyMaterial in plain formulas, one point after the other: what it is compared with.
 template <int dim, typename Law>
 class OnePointMaterial : public HenckyMaterial<dim, Law>
