@@ -12,16 +12,6 @@
 
 namespace test_mohr_coulomb
 {
-/// Derivative of the energy along principal axis k, over +- `step`, Pa; exact but where the axis opens or closes.
-double energy_slope(const MohrCoulomb &law, const PrincipalValues &strain, const unsigned int k, const double step)
-{
-  PrincipalValues more = strain, less = strain;
-  more[k] += step;
-  less[k] -= step;
-  return (law.energy(more) - law.energy(less)) / (2 * step);
-}
-
-
 /// On faces and edges the plastic volume strain is sin psi times the sum of the sizes of the principal plastic strains.
 double dilation_error(const PrincipalValues &trial, const PrincipalValues &strain, const double sine)
 {
