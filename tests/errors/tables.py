@@ -29,6 +29,7 @@ class Block:
     lines: list
 
     def add(self, line):
+        """Adds a line, or what stands behind the colon of the first one."""
         for part in [line] if self.kind == "file" or line[0] in "|!$" else line.split(" | "):
             (self.lines if self.kind == "file" or part[0] in "|!$" else self.parts).append(part)
 
