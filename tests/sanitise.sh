@@ -37,14 +37,17 @@ check()
   fi
 }
 
-for case in "$root"/tests/debug/*.prm "$root"/tests/cases/*.prm; do
+cases=$root/tests/cases/short.table
+python3 "$root/tests/errors/tables.py" "$build/cases" "$cases" &&
+  python3 "$root/tests/errors/tables.py" "$build/cases" "$root/tests/debug/debug.table" "$cases" || exit 1
+for case in "$build"/cases/*.prm; do
   name=$(basename "$case" .prm)
   check 0 "$name" "$build/scree" "$case"
   check 0 "$name.mpirun=2" mpirun -np 2 "$build/scree" "$case"
 done
 for name in column_short water_short; do
   # shellcheck disable=SC2016  # for the inner shell
-  check 0 "$name.resume" sh -c '"$0" "$1" && "$0" "$1" --resume' "$build/scree" "$root/tests/cases/$name.prm"
+  check 0 "$name.resume" sh -c '"$0" "$1" && "$0" "$1" --resume' "$build/scree" "$build/cases/$name.prm"
 done
 check 0 errors python3 "$root/tests/errors/errors.py" --folder "$folder/errors" --scree "$build/scree" --element "$build/scree-element"
 for case in "$root"/prm/element/*.prm; do

@@ -2,6 +2,7 @@
 """What scripts of several tests share: SCRIPT SCREE LAUNCHER TEST, where TEST is a function of the script that works in the current
 folder and LAUNCHER is "mpirun -np" or alike."""
 
+import csv
 import pathlib
 import subprocess
 import sys
@@ -21,6 +22,16 @@ def run(folder, case, *options, ranks=1):
     command = [*LAUNCHER, str(ranks)] if ranks > 1 else []
     subprocess.run([*command, SCREE, "case.prm", *options], cwd=folder, check=True, stdout=subprocess.DEVNULL)
     return pathlib.Path(folder, "results")
+
+
+def rows_of(file):
+    """The rows of a table with commas, each with its values by column."""
+    with open(file, encoding="utf-8", newline="") as table:
+        return list(csv.DictReader(table))
+
+
+def log_of(folder):
+    return (folder / "log.txt").read_text(encoding="utf-8")
 
 
 def check(fact, text):

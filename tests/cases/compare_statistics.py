@@ -86,4 +86,5 @@ def main():
         compare(comparisons[i:i + 2], float(comparisons[i + 2]), float(thickness))
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -4,7 +4,7 @@
 Each test is a function below (case_tools.py).
 """
 
-import csv
+import os
 import pathlib
 import shutil
 import sys
@@ -15,7 +15,7 @@ from scree.maps import find_map
 from scree.results import read_raster, read_table
 from scree.variants import read_case, set_entries
 
-from case_tools import HERE, check, run
+from case_tools import check, log_of, rows_of, run
 
 NAMES = ["thickness", "mass", "deposit", "largest_thickness", "largest_speed", "largest_impact_pressure", "arrival_time"]
 MAPS = {"Output/Maps/Write": "true", "Output/Maps/Least thickness": 0.02}
@@ -39,8 +39,7 @@ def close_map(results, name, wanted, soil, what):
 
 def read_profile(results):
     """Columns of the table of a plane run."""
-    with open(results / "maps" / "profile.csv", encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(results / "maps" / "profile.csv")
     return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
 
 
@@ -79,7 +78,7 @@ def block():
 
 def slide():
     """A block on an oblique bed: the maps hold its mass; two ranks and a resumed run have those of one that did not stop."""
-    text = set_entries(read_case(HERE / "bed_short_3d.prm"), {**MAPS, "Soil/Initial velocity": "1; 0.3; -0.46"})  # along the bed
+    text = set_entries(read_case(pathlib.Path(os.environ["SHORT_CASES"], "bed_short_3d.prm")), {**MAPS, "Soil/Initial velocity": "1; 0.3; -0.46"})  # along the bed
     one = run("one", text)
     first = {name: read_map(one, name) for name in NAMES}
     statistics = read_table(one / "statistics")
@@ -138,8 +137,7 @@ def geo_tiff():
     """The block's maps as GeoTIFF have the values and places of the ASCII grids, and the coordinate system of the case.
     A run in one format removes the maps of another."""
     results = run("geo_tiff", {**BLOCK, "Coordinate system": "EPSG:2056", "Output/Maps/Format": "ASCII grid and GeoTIFF"})
-    log = (results / "log.txt").read_text(encoding="utf-8")
-    check("Coordinate system of the maps: EPSG:2056" in log, "log")
+    check("Coordinate system of the maps: EPSG:2056" in log_of(results), "log")
     for name in ("thickness_0.0s", "thickness", "deposit", "arrival_time"):
         grid, tiff = (read_raster(results / "maps" / (name + ending)) for ending in (".asc", ".tif"))
         check(np.array_equal(np.isnan(grid.values), np.isnan(tiff.values)), f"{name}: nan elsewhere")
@@ -151,7 +149,7 @@ def geo_tiff():
     case = {**BLOCK, "Soil/Thickness": "../release.tif", "Bed/Type": "fixed", "Bed/Level set expression": "z - 1000.2", "Output/Maps/Format": "GeoTIFF"}
     del case["Soil/Region"]
     again = run("geo_tiff", case)
-    check("Coordinate system of the maps: EPSG:2056" in (again / "log.txt").read_text(encoding="utf-8"), "system of the raster")
+    check("Coordinate system of the maps: EPSG:2056" in log_of(again), "system of the raster")
     check(not list((again / "maps").glob("*.asc")) and not list((again / "maps").glob("*.prj")), "maps of the run before are left")
     first, second = (read_map(again, "thickness_0.0s"), read_raster("release.tif").values[::-1])
     check(abs(np.nansum(first) / np.nansum(second) - 1) < 0.05, "thickness of the soil from its own map")

@@ -2,11 +2,12 @@
 """The memory that a run announces is within 30 % of the largest that it takes: dry and wet, plane and in space, with fine cells that follow
 a slide, with and without pictures; further cases by hand."""
 
+import pathlib
 import re
 import subprocess
 import sys
 
-from case_tools import HERE, SCREE, check
+from case_tools import HERE, SCREE, check, log_of
 from scree.variants import write_variant
 
 CASES = (("slopes/first_slope", 0.1), ("columns/column_saturated_3d", 0.03), ("slopes/slope_saturated_dense", 0.03))
@@ -21,8 +22,7 @@ def estimate(cases=CASES):
         pictures = {} if "benchmarks" in case else {"Output/Interval": str(end / 4)}
         write_variant(HERE.parents[1] / "prm" / (case + ".prm"), name + ".prm", {"Output directory": name, "End time": str(end), **pictures})
         subprocess.run([SCREE, name + ".prm"], check=True, stdout=subprocess.DEVNULL)
-        with open(name + "/log.txt", encoding="utf-8") as file:
-            log = file.read()
+        log = log_of(pathlib.Path(name))
         announced, taken = (float(re.search(pattern, log)[1]) for pattern in (r"Memory +(\d+) MB", r"Largest memory: (\d+) MB"))
         print(f"{name}: {announced:.0f} MB announced, {taken:.0f} MB taken, ratio {announced / taken:.2f}")
         if not 1 / 1.3 <= announced / taken <= 1.3:

@@ -58,7 +58,5 @@ grep -q '^set Output directory = results/bank$' sub/bank.prm
 "$scree" --new terrain sub/hill.prm >/dev/null
 [ -s sub/release.asc ]
 
-refused --new slop
-grep -q 'there is no scene "slop". Did you mean "slope"?' error
 refused --new slope nowhere/slope.prm
 grep -q 'cannot be written' error

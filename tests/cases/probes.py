@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""probes.py SCREE LAUNCHER TEST: what probes write, on one rank and two, and after a resume; drawn by scree.pictures.tables.
+"""probes.py SCREE LAUNCHER TEST: what probes of every kind write, of a dry column that collapses on a rough floor and variants, on one rank and two,
+and after a resume; drawn by scree.pictures.tables.
 
 Each test is a function below (case_tools.py).
 """
 
-import csv
 import pathlib
 import sys
 
@@ -13,11 +13,15 @@ from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 
 from scree.pictures.tables import render_probe
 from scree.results import read_points, read_statistics, read_table, read_times
-from scree.variants import set_entries
 
-from case_tools import HERE, check, run
+from case_tools import check, rows_of, run
 
-DRY = (HERE / "probes.prm").read_text(encoding="utf-8")
+DRY = {"End time": 0.12, "Mesh/Upper corner": "1.6, 0.8", "Mesh/Cell size": 0.1, "Boundaries/Bottom": "friction 30",
+       "Soil/Region": "x < 0.5 && y < 0.5", "Soil/Points per cell": 4, "Soil/Initial state/Type": "K0", "Soil/Initial state/K0": 0.683,
+       "Output/Interval": 0.06, "Output/Statistics interval": 0.01, "Output/Checkpoint interval": 0.055, "Output/Screen": "nothing",
+       "Output/Graphics": "points", "Probes/Places": "toe: 0.45, 0.03; far: 1.5, 0.7", "Probes/Lines": "base: 0, 0.02 to 1.6, 0.02; mid: 0.2, 0 to 0.2, 0.8",
+       "Probes/Places a line": 17, "Probes/Verticals": "crest: 0.1", "Probes/Front thickness": 0.05, "Probes/Wall forces": "true",
+       "Probes/Displacement": "true"}
 WATER = {"Water/Region": "x < 0.7 && y < 0.4", "Water/Hydraulic conductivity": 5e-3, "Water/Pressure/Relative tolerance": 1e-12}
 FILES = ["probe_" + name for name in ("toe", "far", "base", "mid", "crest", "front", "walls")]
 
@@ -25,8 +29,7 @@ FILES = ["probe_" + name for name in ("toe", "far", "base", "mid", "crest", "fro
 def same_in_csv(results, name, columns):
     """A table and its .csv have the same rows; some columns of the latter have these names."""
     table = read_table(results / name)
-    with open(results / f"{name}.csv", encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(results / f"{name}.csv")
     check(len(rows) == len(next(iter(table.values()))) and len(rows[0]) == len(table), f"{name}.csv: another size")
     for column, (head, values) in zip(rows[0], table.items()):
         others = [float(row[column]) for row in rows]
@@ -152,7 +155,7 @@ def displacements(results):
 
 def water():
     """Both phases on one rank and two, with friction of the floor; water at rest: p, level, and forces on the walls."""
-    short = set_entries(DRY, {"End time": 0.06, **WATER})
+    short = {**DRY, "End time": 0.06, **WATER}
     one, two = run("one", short), run("two", short, ranks=2)
     compare(one, two, 1e-5)
     walls = read_table(one / "probe_walls")

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """scree --safety on a coarse mesh: Griffiths & Lane (1999), example 1, cells of 1 m; the factor is 1.4 by finite elements, 1.38 by Bishop's method."""
 
-import csv
 import pathlib
 import re
 import shutil
@@ -10,11 +9,20 @@ import subprocess
 import sys
 import time
 
-from case_tools import HERE, SCREE, check, run
+from case_tools import HERE, SCREE, check, log_of, rows_of, run
 from scree.variants import read_case, set_entries
 
 CASE = HERE.parents[1] / "prm/slopes/griffiths_lane.prm"
 WET = HERE.parents[1] / "prm/slopes/griffiths_lane_water.prm"
+
+
+# A layer of 1 m with seepage parallel to its slope of 0.4, coarse. Infinite slope: F = (gamma'/gamma_sat) tan(phi)/tan(beta) = 1.244.
+SEEPAGE = {"End time": 1, "Mesh/Upper corner": "24, 12.5", "Mesh/Cell size": 0.5, "Transfer/Method": "AFLIP", "Boundaries/Bottom": "open",
+           "Bed/Type": "friction", "Bed/Friction angle": 45, "Bed/Level set expression": "(y - (10.6 - 0.4*x))*0.92848",
+           "Soil/Region": "y < 11.6 - 0.4*x", "Soil/Points per cell": 2, "Soil/Material": "Mohr-Coulomb", "Soil/Grain density": 2650,
+           "Soil/Initial porosity": 0.4, "Soil/Mohr-Coulomb/Young's modulus": 1e7, "Soil/Mohr-Coulomb/Friction angle": 45,
+           "Soil/Initial state/Type": "K0", "Settling/Maximum time": 10, "Water/Steady seepage": "true", "Water/Heads at walls": "Left: 11.6, Right: 2",
+           "Water/Points per cell": 2, "Water/Hydraulic conductivity": 1e-4, "Safety/Displacement": 0.005, "Safety/Tolerance": 0.01}
 
 
 def slope(case=CASE, **entries):
@@ -24,8 +32,7 @@ def slope(case=CASE, **entries):
 
 def trials(folder):
     """The rows of safety.csv."""
-    with open(folder / "safety" / "safety.csv", encoding="utf-8") as file:
-        return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+    return [{name: float(value) for name, value in row.items()} for row in rows_of(folder / "safety" / "safety.csv")]
 
 
 def bracket(rows):
@@ -86,7 +93,7 @@ def range_and_stop():
         search.send_signal(signal.SIGTERM)
     check(search.returncode == 3, f"exit code {search.returncode} of a search that was stopped")
     check(len(trials(folder / "results")) >= 2, "trials are lost")
-    log = (folder / "results" / "safety" / "log.txt").read_text(encoding="utf-8")
+    log = log_of(folder / "results" / "safety")
     check(re.search(r"^   1 +rests .* above 1 +10, about \S+ \w+$", log, re.MULTILINE), f"no range or number of trials: {log}")  # log2(0.6/0.001) = 9.2
     check(re.search(r"^Stopped     factor so far: (above 1|1 to 1\.3)", log, re.MULTILINE), f"no range of a search that was stopped: {log}")
 
@@ -109,8 +116,7 @@ def parallel_seepage():
     """A layer with seepage parallel to its slope: F = 1.244 of the infinite slope with associated flow; without dilation F is lower, as the
     layer shears at sin(phi) in place of tan(phi) (Davis 1968), which is 0.74."""
     for dilation, low, high in (45, 0.94 * 1.244, 1.06 * 1.244), (0, 0.74, 1.244):
-        text = set_entries(read_case(HERE / "parallel_seepage.prm"), {"Soil/Mohr-Coulomb/Dilation angle": dilation})
-        rests, fails = bracket(trials(run(f"dilation_{dilation}", text, "--safety")))
+        rests, fails = bracket(trials(run(f"dilation_{dilation}", {**SEEPAGE, "Soil/Mohr-Coulomb/Dilation angle": dilation}, "--safety")))
         print(f"dilation {dilation} degrees: between {rests:g} and {fails:g}")
         check(low < rests and fails < high, f"the factor is not between {low:g} and {high:g}")
 

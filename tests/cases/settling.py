@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The phases of a slope of 2:1, 10 m high on 5 m of its soil, with cells of 1 m: settling, release, slide."""
 
-import csv
 import re
 import sys
 
-from case_tools import HERE, check, run
+from case_tools import HERE, check, log_of, rows_of, run
 from scree.variants import read_case, set_entries
 
 CASE = HERE.parents[1] / "prm/slopes/griffiths_lane.prm"
@@ -18,15 +17,6 @@ SETTLEMENT = DENSITY * GRAVITY * (HEIGHT + FOUNDATION - 1 / 3)**2 / (2 * MODULUS
 def slope(**entries):
     return set_entries(read_case(CASE), {"Mesh/Cell size": 1, "Mesh/Upper corner": "45, 17", "Soil/Region": REGION, "Output directory": "results",
                                          "Settling/Maximum time": 20, "End time": 3, **entries})
-
-
-def log_of(folder):
-    return (folder / "log.txt").read_text(encoding="utf-8")
-
-
-def rows(folder):
-    with open(folder / "statistics.csv", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def fall(table, name="potential_energy_J"):
@@ -53,9 +43,9 @@ def phases():
     text = log_of(folder)
     check("does not stand" not in text and re.search(r"displacement while\s+settling", text), "the slope moves while it settles")
     check('Changed from here on: subsection Safety, entry "Strength factor" = 1.8, before 1.' in text, "the factor does not act at the release")
-    slid = rows(folder)
+    slid = rows_of(folder / "statistics.csv")
     check(float(slid[0]["time_s"]) == 0 and float(slid[0]["kinetic_energy_J"]) == 0, "the first row is not that of the release")
-    stood = rows(run("slide", slope(**{"Safety/Strength factor": 1.2}), "--resume"))
+    stood = rows_of(run("slide", slope(**{"Safety/Strength factor": 1.2}), "--resume") / "statistics.csv")
     check(log_of(folder).count("Settled for") == 1 and 'entry "Strength factor" = 1.2' in log_of(folder), "the slope settles again")
     print(f"centre of mass falls by {fall(slid):g} m with 1.8 and by {fall(stood):g} m with 1.2")
     check(fall(slid) > 0.05 and fall(stood) < 0.2 * fall(slid), "the slide does not depend on the factor")

@@ -13,7 +13,7 @@ from osgeo import gdal, ogr
 
 from scree.results import read_raster, read_statistics
 
-from case_tools import check, run
+from case_tools import check, log_of, run
 
 SPACING, CORNER, COLUMNS, ROWS = 5., (1000., 2000.), 41, 33
 DENSITY = 1500.
@@ -147,7 +147,7 @@ def shifted():
     check(np.array_equal(maps[0].values, maps[1].values, equal_nan=True), "values of the map")
     check((moved / "maps" / "largest_thickness.prj").read_text(encoding="utf-8") == system, "system of coordinates")
     check(not (near / "maps" / "largest_thickness.prj").exists(), "system of coordinates from nowhere")
-    check("Local origin: x = 0, y = 0 is 2600000, 1200000 m" in (moved / "log.txt").read_text(encoding="utf-8"), "log")
+    check("Local origin: x = 0, y = 0 is 2600000, 1200000 m" in log_of(moved), "log")
 
 
 globals()[sys.argv[3]]()

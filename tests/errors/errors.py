@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs the cases of the tables beside this file: wrong input, and what a program must say about it.
 
-A table consists of blocks, with the lines of a block indented:
+A table consists of blocks, with the lines of a block indented; base and case are those of tables.py:
 
   base plain: Soil/Region = y < 0.5           entries that cases start from
 
@@ -14,8 +14,7 @@ A table consists of blocks, with the lines of a block indented:
   case cell_size_zero from plain: Mesh/Cell size = 0    the file cell_size_zero.prm: these entries, then the others of the base
     ! subsection Mesh, entry "Cell size" = 0: write a number above 0.
 
-Entries stand behind the colon, with " | " between them, or in lines of their own; "/ENTRY" is of the subsection of the one before it, and
-"Soil/" alone an empty subsection. A case of "| " lines has those as its file instead, \\xHH is a byte of them.
+A case of "| " lines has those as its file instead of entries, \\xHH is a byte of them.
 "$ scree --resume valid.prm" in the place of an entry is a command line other than "scree NAME.prm".
 "! TEXT" is all of standard error, with exit code 1: "scree: NAME.prm, line N: TEXT", where N is the line of the entry or
 subsection that the text names, and without a line if the case does not contain it. "! scree..." is the whole message,
@@ -24,7 +23,6 @@ subsection that the text names, and without a line if the case does not contain 
 
 import argparse
 import concurrent.futures
-import dataclasses
 import pathlib
 import re
 import shlex
@@ -33,34 +31,9 @@ import subprocess
 import sys
 import tempfile
 
+from tables import blocks, entries, parameter_file
+
 HERE = pathlib.Path(__file__).resolve().parent
-
-
-@dataclasses.dataclass
-class Block:
-    """A block of a table: its kind, the words of its first line, that line's place, and its lines."""
-    kind: str
-    name: str
-    base: str
-    place: str
-    lines: list
-
-
-def blocks(table):
-    """Yields the blocks of a table."""
-    block = None
-    for number, line in enumerate(table.read_text(encoding="ascii").splitlines(), start=1):
-        place = f"{table.name}, line {number}"
-        if header := re.fullmatch(r"(base|file|case) ([^\s:]+)(?: from ([^\s:]+))?(?:: (.*))?", line):
-            if block:
-                yield block
-            block = Block(header[1], header[2], header[3] or "", place, header[4].split(" | ") if header[4] else [])
-        elif line.startswith("  ") and block:
-            block.lines.append(line[2:])
-        elif line and not line.startswith("#"):
-            raise SystemExit(f"{place}: {line!r} begins no block. Write base, file or case, or indent the line.")
-    if block:
-        yield block
 
 
 def as_bytes(text):
@@ -73,56 +46,12 @@ def quoted(block):
     return b"".join(as_bytes(line[2:]) + b"\n" for line in block.lines if line.startswith("|"))
 
 
-def entries(block):
-    """The entries of a block: path and value, or None for an empty subsection."""
-    found, subsection = {}, ""
-    for line in block.lines:
-        if line[0] in "|!$":
-            continue
-        path, equals, value = line.partition(" = ")
-        path = subsection + path if path[0] == "/" else path
-        subsection = path.rpartition("/")[0]
-        if not (equals or line.endswith("/")) or path in found:
-            raise SystemExit(f"{block.place}: {line!r} is no new entry. Write SUBSECTION/ENTRY = VALUE.")
-        found[path] = value if equals else None
-    return found
-
-
-def parameter_file(values):
-    """A parameter file with these entries, and the line of each one and of each subsection in it."""
-    tree = {}
-    for path, value in values.items():
-        *subsections, entry = path.split("/")
-        level = tree
-        for subsection in subsections:
-            level = level.setdefault(subsection + "/", {})
-        if entry:
-            level[entry] = value
-    text, at = [], {}
-
-    def write(level, path):
-        indent = "  " * path.count("/")
-        for name, value in level.items():
-            at[path + name] = len(text) + 1
-            if isinstance(value, dict):
-                text.append(f"{indent}subsection {name[:-1]}\n")
-                write(value, path + name)
-                text.append(f"{indent}end\n")
-            else:
-                text.append(f"{indent}set {name} = {value}\n")
-    write(tree, "")
-    return "".join(text).encode(), at
-
-
 class Case:
     """A case of a table: its file, its command line, and what standard error must be."""
 
     def __init__(self, block, bases):
         self.name, self.place = block.name, block.place
-        values = entries(block)
-        if block.base:
-            values |= {path: value for path, value in bases[block.base].items() if path not in values}
-        self.content, at = (quoted(block), {}) if any(line[0] == "|" for line in block.lines) else parameter_file(values)
+        self.content, at = (quoted(block), {}) if any(line[0] == "|" for line in block.lines) else parameter_file(entries(block, bases))
         command = [line[2:] for line in block.lines if line[0] == "$"] or [f"scree {self.name}.prm"]
         said = [line[2:] for line in block.lines if line[0] == "!"]
         if len(command) != 1 or len(said) != 1:
@@ -161,7 +90,7 @@ class Tables:
                 kinds[block.kind][block.name] = block
         bases = {}
         for name, block in kinds["base"].items():
-            bases[name] = entries(block) | (bases[block.base] if block.base else {})
+            bases[name] = entries(block, bases)
         self.files = {}
         for name, block in kinds["file"].items():
             content = self.files[block.base].splitlines(keepends=True) if block.base else quoted(block)
@@ -169,18 +98,15 @@ class Tables:
                 number, _, text = line.partition("| ")
                 content[int(number) - 1:int(number)] = [as_bytes(text) + b"\n"]
             self.files[name] = b"".join(content) if block.base else content
-        for block in kinds["case"].values():
-            if block.base and block.base not in bases:
-                raise SystemExit(f"{block.place}: there is no base {block.base}. There are {', '.join(bases)}.")
         self.cases = {name: Case(block, bases) for name, block in sorted(kinds["case"].items())}
-        self.refuse_unused({block.base for block in kinds["case"].values()}, bases)
+        self.refuse_unused({block.base for kind in ("base", "case") for block in kinds[kind].values()}, bases)
 
     def refuse_unused(self, used, bases):
         """Every base and every file belongs to a case."""
         texts = b"\n".join([case.content for case in self.cases.values()] + list(self.files.values()))
         for name in bases:
             if name not in used:
-                raise SystemExit(f"No case starts from base {name}.")
+                raise SystemExit(f"Nothing starts from base {name}.")
         for name in self.files:
             if not re.search(rb"(^|[^\w.])" + re.escape(name.encode()), texts) and pathlib.Path(name).suffix != ".prj":
                 raise SystemExit(f"No case names file {name}.")

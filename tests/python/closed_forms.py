@@ -133,11 +133,6 @@ def check_all():
     check(failures, "dam break of grains: growth of the wave's volume over what enters from the layer", abs((volume[1] - volume[0]) / dt / (.2 * (speed - end)) - 1), 1e-4)
 
     check(failures, "hydrostatics: 1 m of water", abs(float(hydrostatic_pressure(0.25, 1.25)) - 9810), 1e-9)
-
-    print(f"\nprm/consolidation/large_strain_consolidation.prm: final settlement {settlement:.6f} m, "
-          f"J at the base {float(final_volume_ratio(mud, 0.)):.5f}; " + ", ".join(f"U({t}) = {s.settlement / settlement:.4f}" for t, s in zip((.25, 1), fine)))
-    print("prm/consolidation/terzaghi.prm: inertia moves p/q by at most " +
-          ", ".join(f"{np.max(np.abs(d)):.1e}" for d in inertia) + " at T_v = 0.1, 0.5, 1")
     return failures
 
 

@@ -9,7 +9,7 @@ import sys
 
 from scree import terrain_bank
 
-from scene_tools import check, check_fall, main, run
+from scene_tools import NO_STRESS, check, check_fall, main, run
 
 METHODS = ("TPIC", "AFLIP")
 
@@ -45,8 +45,7 @@ def scene_of(seed):
     if has_soil:
         conductivity = 10 ** rng.uniform(-5, -1)
         entries.update({"Soil/Region": soil, "Soil/Points per cell": "%d" % points,
-                        "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto",
-                        "Soil/Initial velocity": velocity, "Water/Hydraulic conductivity": "%.3g" % conductivity})
+                        **NO_STRESS, "Soil/Initial velocity": velocity, "Water/Hydraulic conductivity": "%.3g" % conductivity})
         if is_elastic:
             entries.update({"Soil/Material": "linear elastic", "Soil/Linear elastic/Young's modulus": "%.3g" % young,
                             "Soil/Linear elastic/Poisson's ratio": "0.3"})

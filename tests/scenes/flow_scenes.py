@@ -7,7 +7,7 @@ import numpy as np
 
 from scree.results import read_points
 
-from scene_tools import check, check_balances, main, run
+from scene_tools import NO_STRESS, check, check_balances, main, run
 
 GRAVITY = 9.81
 
@@ -55,7 +55,7 @@ def savage_hutter_cap(scree):
     table = run(scree, "columns/mohr_coulomb_collapse", "cap", {
         "Mesh/Upper corner": "4.5, 0.1", "Mesh/Cell size": "0.0125", "Gravity": "%.9g, %.9g" % (
             GRAVITY * math.sin(math.radians(slope)), -GRAVITY * math.cos(math.radians(slope))), "End time": time, "Output/Graphics": "points",
-        "Output/Interval": time, "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto", "Soil/Region": "y < %g*(1 - (x - 1.25)^2)" % height, "Soil/Points per cell": "3",
+        "Output/Interval": time, **NO_STRESS, "Soil/Region": "y < %g*(1 - (x - 1.25)^2)" % height, "Soil/Points per cell": "3",
         "Soil/Mohr-Coulomb/Friction angle": internal, "Boundaries/Bottom": "friction %g" % friction, "Transfer/PIC rate": "0"})
     points = read_points("cap")
     mass, x = points.arrays["mass"], points.positions[:, 0]

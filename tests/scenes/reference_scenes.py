@@ -7,7 +7,7 @@ import sys
 import numpy as np
 
 from scree.results import read_points
-from scene_tools import ROOT, check, main, run
+from scene_tools import NO_STRESS, ROOT, check, main, run
 
 sys.path.insert(0, os.path.join(ROOT, "doc", "theory"))
 sys.dont_write_bytecode = True
@@ -32,8 +32,7 @@ def wet_step(scree):
         "Time step/Maximum time step": reference.TIME_STEP, "Stabilisation/F-bar": "none",
         "Soil/Region": f"y < {reference.SOIL_HEIGHT}", "Soil/Points per cell": reference.PER_CELL,
         "Soil/Grain density": reference.GRAIN_DENSITY, "Soil/Initial porosity": reference.POROSITY,
-        "Soil/Linear elastic/Young's modulus": reference.YOUNG, "Soil/Linear elastic/Poisson's ratio": reference.POISSON,
-        "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto",
+        "Soil/Linear elastic/Young's modulus": reference.YOUNG, "Soil/Linear elastic/Poisson's ratio": reference.POISSON, **NO_STRESS,
         "Water/Region": f"y < {reference.WATER_TABLE} || (x < {reference.COLUMN_WIDTH} && y < {reference.COLUMN_HEIGHT})",
         "Water/Points per cell": reference.PER_CELL, "Water/Density": reference.WATER_DENSITY,
         "Water/Hydraulic conductivity": reference.CONDUCTIVITY, "Water/Initial pressure": "none", "Water/Pressure/Relative tolerance": "1e-12",

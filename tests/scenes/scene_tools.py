@@ -30,6 +30,11 @@ def run(scree, case, name, entries, may_stop=False):
     return read_statistics(name)
 
 
+def log_of(run_folder):
+    with open(os.path.join(run_folder, "log.txt"), encoding="utf-8") as file:
+        return file.read()
+
+
 def pictures(entries=None):
     """Entries of a run whose points are looked at."""
     return {"Output/Graphics": "points", **(entries or {})}

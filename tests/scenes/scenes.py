@@ -13,7 +13,7 @@ import numpy as np
 from scree.results import read_table
 from scree.variants import read_case, set_entries
 
-from scene_tools import ROOT, at, check, check_balances, check_fall, check_gain, largest_fall, main, mean_oscillation, run
+from scene_tools import NO_STRESS, ROOT, at, check, check_balances, check_fall, check_gain, largest_fall, main, mean_oscillation, run
 
 
 def columns(scree):
@@ -73,7 +73,7 @@ def drop(scree):
     """A dry block falls on a wall of the box: freely and without stress until its points reach it, then without a gain of energy; at rest its weight
     is the wall's force, and a sliding one is braked by friction times weight. A wall that acts on all of its cells leaves .56 of the speed."""
     gravity, height, speed = 9.81, 0.1, 2.
-    block = {"Mesh/Upper corner": "2, 1.5", "Mesh/Cell size": "0.1", "Soil/Points per cell": "3", "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto",
+    block = {"Mesh/Upper corner": "2, 1.5", "Mesh/Cell size": "0.1", "Soil/Points per cell": "3", **NO_STRESS,
              "Soil/Region": "x > 0.5 && x < 1.5 && y > %g && y < %g" % (height, height + 0.5), "Soil/Initial velocity": "0; %g" % -speed,
              "Transfer/PIC rate": "0", "Time step/Maximum time step": "1e-4", "End time": "0.2", "Output/Statistics interval": "0.002"}
     for wall in ("fixed", "free slip", "friction 20"):

@@ -6,7 +6,6 @@ Kozeny's parabola with Casagrande's start; the exit point within a cell of the p
 """
 
 import math
-import os
 import re
 import subprocess
 
@@ -15,18 +14,15 @@ import numpy as np
 from scree import closed_forms
 from scree.results import read_points, read_times
 
-from scene_tools import at, check, main, run
+from scene_tools import WATER, at, check, log_of, main, run
 
-WATER = 1000 * closed_forms.GRAVITY  # N/m^3
 NUMBER = r"(-?[\d.]+(?:e[-+]?\d+)?)"
 
 
 def seepage(folder):
     """Inflow, outflow in air, exit height, outflow below heads, from a run's log."""
-    with open(os.path.join(folder, "log.txt"), encoding="utf-8") as log:
-        text = log.read()
     found = re.search("Steady seepage: " + NUMBER + r" m\^[23]/s in, " + NUMBER + " out through faces in air(?: up to " + NUMBER + r" m)?, " +
-                      NUMBER + r" out below given heads; (\d+) iterations(, not converged)?", text)
+                      NUMBER + r" out below given heads; (\d+) iterations(, not converged)?", log_of(folder))
     check(folder + ": not converged", found.group(6) is not None, 0, 0)
     return [float(value or "nan") for value in found.groups()[:4]]
 

@@ -6,14 +6,9 @@ import numpy as np
 from scree import closed_forms
 from scree.results import read_points
 
-from scene_tools import check, main, run
+from scene_tools import check, log_of, main, run
 
 DAY = 86400.  # s
-
-
-def log_of(name):
-    with open(name + "/log.txt", encoding="utf-8") as log:
-        return log.read()
 
 
 def motion_is_slow(name):

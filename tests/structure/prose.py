@@ -16,7 +16,7 @@ def forbidden_phrases():
     return [line.strip() for line in text.splitlines() if line.strip() and not line.startswith("#")]
 
 
-PHRASES = {phrase: re.compile(r"(?<!\w)" + r"\s+".join(map(re.escape, phrase.split())) + r"(?!\w)", re.IGNORECASE) for phrase in forbidden_phrases()}
+PHRASES = [re.compile(r"(?<!\w)(" + r"\s+".join(phrase.split()) + r")(?!\w)", re.IGNORECASE) for phrase in forbidden_phrases()]
 
 
 def plain(line):
@@ -36,13 +36,17 @@ def sentences(text):
     return re.split(r"(?<=[.!?])[\"')*_]*\s+(?=[\"'(`*_\[]*[A-Z0-9`])", text)
 
 
+def phrase_faults(number, text):
+    for pattern in PHRASES:
+        for found in pattern.finditer(text):
+            yield number, f'the phrase "{found[0]}"'
+
+
 def paragraph_faults(number, text):
     for sentence in sentences(text):
         if words(sentence) > WORDS_OF_SENTENCE:
             yield number, f"a sentence of {words(sentence)} words: {sentence[:60]}..."
-    for phrase, pattern in PHRASES.items():
-        if pattern.search(text):
-            yield number, f'the phrase "{phrase}"'
+    yield from phrase_faults(number, text)
 
 
 def blocks(lines):
@@ -50,29 +54,23 @@ def blocks(lines):
     fence, hidden = None, None
     for number, line in enumerate(lines, 1):
         mark = re.match(r"\s*(?:[-*] +)?(`{3,}|~{3,}|:{3,})", line)
+        text, counted = line.strip(), ""
         if fence:
-            if mark and line.strip() == mark.group(1) and mark.group(1).startswith(fence):
+            if mark and text == mark.group(1) and mark.group(1).startswith(fence):
                 fence = None
-            yield number, ""
         elif hidden:
             hidden = None if hidden in line else hidden
-            yield number, ""
-        elif mark and mark.group(1)[0] != ":":
-            fence = mark.group(1)
-            yield number, ""
         elif mark:
-            yield number, ""
-        elif line.strip().startswith("$$"):
-            hidden = None if line.strip().endswith("$$") and len(line.strip()) > 3 else "$$"
-            yield number, ""
-        elif line.strip().startswith("<!--"):
+            fence = mark.group(1) if mark.group(1)[0] != ":" else None
+        elif text.startswith("$$"):
+            hidden = None if text.endswith("$$") and len(text) > 3 else "$$"
+        elif text.startswith("<!--"):
             hidden = None if "-->" in line else "-->"
-            yield number, ""
-        elif number == 1 and line.strip() == "---":
+        elif number == 1 and text == "---":
             hidden = "---"
-            yield number, ""
         else:
-            yield number, plain(line)
+            counted = plain(line)
+        yield number, counted
 
 
 def markdown_faults(lines):
@@ -89,9 +87,7 @@ def markdown_faults(lines):
             for cell in text.strip("|").split("|"):
                 if words(cell) > WORDS_OF_CELL:
                     yield number, f"a cell of {words(cell)} words: {cell.strip()[:60]}..."
-            for phrase, pattern in PHRASES.items():
-                if pattern.search(text):
-                    yield number, f'the phrase "{phrase}"'
+            yield from phrase_faults(number, text)
         if paragraph and (not text or is_row or re.match(r"([-*+]|\d+\.) |#|>", text)):
             yield from paragraph_faults(start, " ".join(paragraph))
             paragraph = []

@@ -45,6 +45,12 @@ inline void expect(const double value, const double expected, const double toler
 }
 
 
+inline void expect_text(const std::string &value, const std::string &expected, const std::string &what)
+{
+  require(value == expected, what + " is\n" + value + "\ninstead of\n" + expected);
+}
+
+
 /// Throws unless `action` throws an exception whose text contains `text`.
 template <typename Action>
 void expect_refusal(const Action &action, const std::string &text, const std::string &what)
@@ -112,6 +118,22 @@ double pattern(const Point<dim> &x)
   for (unsigned int a = 0; a < dim; ++a)
     phase = 17. * std::sin(phase + 7. * x[a] * (a + 1));
   return std::sin(phase);
+}
+
+
+/// The vector whose components begin at `first` among the values of a node or the properties of a point.
+template <int dim>
+Tensor<1, dim> vector_of(const double *values, const unsigned int first)
+{
+  Tensor<1, dim> result;
+  std::copy(values + first, values + first + dim, result.begin_raw());
+  return result;
+}
+
+template <int dim>
+void set_vector(double *values, const unsigned int first, const Tensor<1, dim> &vector)
+{
+  std::copy(vector.begin_raw(), vector.end_raw(), values + first);
 }
 
 

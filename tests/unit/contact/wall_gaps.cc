@@ -53,11 +53,8 @@ struct Box
       {
         soil[node][NodalField<2>::mass]  = 3.;
         water[node][NodalField<2>::mass] = 1.;
-        for (unsigned int c = 0; c < 2; ++c)
-          {
-            soil[node][NodalField<2>::momentum + c]  = 3. * velocity[c];
-            water[node][NodalField<2>::momentum + c] = velocity[c];
-          }
+        set_vector<2>(soil[node], NodalField<2>::momentum, 3. * velocity);
+        set_vector(water[node], NodalField<2>::momentum, velocity);
       }
   }
 
@@ -180,17 +177,16 @@ const UnitTest registered("wall_gaps", [] {
     Budget<2> balance;
     double error = 0, loss = 0;
     for_each_point(phase.points(), [&](const auto &point) {
-      point.location                              = place;
-      point.properties[phase.layout.mass]         = 2.;
-      point.properties[phase.layout.volume]       = size * size;
-      point.properties[phase.layout.velocity]     = velocity[0];
-      point.properties[phase.layout.velocity + 1] = velocity[1];
+      point.location                        = place;
+      point.properties[phase.layout.mass]   = 2.;
+      point.properties[phase.layout.volume] = size * size;
+      set_vector(point.properties, phase.layout.velocity, velocity);
     });
     keep_off_walls(box.grid, box.water_walls.closed_faces(), phase, balance);
     for_each_point(phase.points(), [&](const auto &point) {
-      const Tensor<1, 2> left({ point.properties[phase.layout.velocity], point.properties[phase.layout.velocity + 1] });
-      error = point.location.distance(end) + (2. * (left - velocity) - impulse).norm();
-      loss  = velocity.norm_square() - left.norm_square();
+      const auto left = vector_of<2>(point.properties, phase.layout.velocity);
+      error           = point.location.distance(end) + (2. * (left - velocity) - impulse).norm();
+      loss            = velocity.norm_square() - left.norm_square();
     });
     expect(Utilities::MPI::max(error, MPI_COMM_WORLD), 0., 1e-12, what + ": error of place and velocity");
     balance.wall_impulse = Utilities::MPI::sum(balance.wall_impulse, MPI_COMM_WORLD);

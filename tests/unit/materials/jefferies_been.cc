@@ -109,13 +109,7 @@ void test_returns(const std::string &name, const JefferiesBeenParameters &parame
       const PrincipalValues trial = strain;
       double internal[2]          = { std::exp(log_image), 0 };
       n_elastic += !return_point(law, strain, internal, J, stress, report);
-      double lost = 0, scale = 0;
-      for (unsigned int k = 0; k < 3; ++k)
-        {
-          require(std::isfinite(strain[k] + stress[k]), name + ": not a number");
-          lost += stress[k] * (trial[k] - strain[k]);
-          scale += std::abs(stress[k]) * (std::abs(trial[k]) + std::abs(strain[k]));
-        }
+      const auto [lost, scale] = energy_taken(trial, strain, stress);
       require(stress[0] + stress[1] + stress[2] <= 0, name + ": tension");
       require(std::isfinite(internal[0]) && internal[0] > 0 && internal[1] >= 0, name + ": variables");
       if (scale == 0)

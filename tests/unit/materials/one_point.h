@@ -88,6 +88,48 @@ bool return_point(const Law &law,
 }
 
 
+/// Strength, Pa, that falls with the plastic shear strain by exp(-rate gamma_p).
+struct FallingStrength
+{
+  double peak, residual, rate;
+};
+
+
+/// Pure shear to `gamma` of a law without friction against tau = residual + (peak - residual) exp(-rate (gamma -
+/// tau/G)) beyond the peak: the largest error over the peak in 1000 steps, and the gain of four times as many, which
+/// is 4.
+template <typename Law>
+void test_falling_shear(const Law &law,
+                        const double gamma,
+                        const FallingStrength &strength,
+                        const double bound,
+                        const double bound_of_gain)
+{
+  const double G   = law.shear_modulus;
+  const auto error = [&](const unsigned int n) {
+    PrincipalValues strain = { { -0.01, -0.01, -0.01 } }, stress;
+    double internal[4] = { 0, 0, 0, strength.peak }, largest = 0; // the last one is that of Tresca's soil
+    UpdateReport report;
+    for (unsigned int step = 1; step <= n; ++step)
+      {
+        const double now = gamma * step / n;
+        strain[0] += gamma / 2 / n;
+        strain[2] -= gamma / 2 / n;
+        return_point(law, strain, internal, 1, stress, report);
+        double exact = std::min(G * now, strength.peak);
+        for (unsigned int i = 0; i < 200 && G * now >= strength.peak; ++i)
+          exact =
+              strength.residual + (strength.peak - strength.residual) * std::exp(-strength.rate * (now - exact / G));
+        largest = std::max(largest, std::abs((stress[0] - stress[2]) / 2 - exact) / strength.peak);
+      }
+    return largest;
+  };
+  const double coarse = error(1000);
+  expect(coarse, 0, bound, "error of tau in 1000 steps");
+  expect(coarse / error(4000), 4, bound_of_gain, "gain of four times as many steps"); // first order
+}
+
+
 /// The kinematics of HenckyMaterial in plain formulas, one point after the other: what it is compared with.
 template <int dim, typename Law>
 class OnePointMaterial : public HenckyMaterial<dim, Law>
@@ -179,6 +221,32 @@ inline PrincipalValues random_strain(RandomNumbers &random, const double size)
 }
 
 
+/// Energy that a return takes, J/m^3, and the size of its terms; throws at what is not a number.
+inline std::pair<double, double>
+energy_taken(const PrincipalValues &trial, const PrincipalValues &strain, const PrincipalValues &stress)
+{
+  double energy = 0, size = 0;
+  for (unsigned int k = 0; k < 3; ++k)
+    {
+      energy += stress[k] * (trial[k] - strain[k]);
+      size += std::abs(stress[k]) * (std::abs(trial[k]) + std::abs(strain[k]));
+    }
+  require(std::isfinite(energy), "A return is not a number.");
+  return { energy, size };
+}
+
+
+/// Derivative of the energy along principal axis k, over +- `step`, Pa; exact but where the axis opens or closes.
+template <typename Law>
+double energy_slope(const Law &law, const PrincipalValues &strain, const unsigned int k, const double step)
+{
+  PrincipalValues more = strain, less = strain;
+  more[k] += step;
+  less[k] -= step;
+  return (law.energy(more) - law.energy(less)) / (2 * step);
+}
+
+
 /// A random strain and what a law makes of it.
 struct RandomReturn
 {
@@ -214,10 +282,8 @@ void random_returns(const std::string &name,
       point.is_plastic   = return_point(law, point.strain, point.internal, 1, point.stress, report, point.time_step);
       point.is_at_vertex = report.n_vertices + report.n_separated > n_before;
       n += point.is_plastic;
-      double dissipation = 0;
-      for (unsigned int k = 0; k < 3; ++k)
-        dissipation += point.stress[k] * (point.trial[k] - point.strain[k]);
-      smallest_dissipation = std::min(smallest_dissipation, dissipation / (point.scale * point.size));
+      const double dissipation = energy_taken(point.trial, point.strain, point.stress).first;
+      smallest_dissipation     = std::min(smallest_dissipation, dissipation / (point.scale * point.size));
       check(point);
     }
   expect(smallest_dissipation, 0, 1e-12, name + ": energy made");

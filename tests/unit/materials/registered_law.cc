@@ -49,37 +49,30 @@ const RegisterLaw registered = RegisterLaw::of<Moduli, ModuliParameters>("Moduli
 
 void run()
 {
-  std::ostream &out = std::cout;
   MaterialParameters parameters;
   ParameterHandler prm;
   parameters.add_parameters(prm);
   prm.parse_input_from_string(
       "set Material = Moduli\nsubsection Moduli\n set Shear modulus = 3e6\n set Bulk modulus = 5e6\nend");
   parameters.check("Soil");
+  std::string names;
   for (const RegisteredLaw &law : registered_laws())
-    out << law.name << "; ";
+    names += law.name + "; ";
+  expect_text(
+      names,
+      "Herschel-Bulkley; linear elastic; Moduli; Mohr-Coulomb; Nor-Sand; Nor-Sand (Jefferies-Been); rigid; Tresca; ",
+      "list of laws");
+  expect_text(parameters.modulus_text("Soil"), "subsection Soil/Moduli, entry \"Shear modulus\" = 3e+06", "modulus");
   const auto plane = make_material<2>(parameters);
   const auto solid = make_material<3>(parameters);
-  out << '\n' << parameters.modulus_text("Soil") << '\n';
-  out << 1e-6 * plane->shear_modulus << ' ' << 1e-6 * solid->shear_modulus << ' '
-      << 1e-6 * solid->initial_bulk_modulus(0.) << '\n';
+  expect(plane->shear_modulus, 3e6, 1e-3, "G, plane");
+  expect(solid->shear_modulus, 3e6, 1e-3, "G");
+  expect(solid->initial_bulk_modulus(0.), 5e6, 1e-2, "K");
   prm.parse_input_from_string("subsection Moduli\n set Bulk modulus = 0\nend");
-  try
-    {
-      parameters.check("Soil");
-    }
-  catch (const EntryError &error)
-    {
-      out << error.what() << '\n';
-    }
+  expect_refusal([&] { parameters.check("Soil"); },
+                 "subsection Soil/Moduli, entry \"Bulk modulus\" = 0: a positive modulus is needed.",
+                 "a bulk modulus of 0");
 }
 
 const UnitTest registered_test("registered_law", run);
 } // namespace test_registered_law
-
-
-// Output:
-// Herschel-Bulkley; linear elastic; Moduli; Mohr-Coulomb; Nor-Sand; Nor-Sand (Jefferies-Been); rigid; Tresca;
-// subsection Soil/Moduli, entry "Shear modulus" = 3e+06
-// 3 3 5
-// subsection Soil/Moduli, entry "Bulk modulus" = 0: a positive modulus is needed.

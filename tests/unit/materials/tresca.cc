@@ -2,13 +2,9 @@
 
 // Tresca and Herschel-Bulkley: random returns against the equations of the strength; shear against
 // tau = s_u(gamma - tau/G) and at several rates; strength of the place; strength divided by a factor.
-#include "../test.h"
+#include "one_point.h"
 
 #include <scree/input/input_error.h>
-#include <scree/materials/laws/tresca.h>
-#include <scree/materials/table.h>
-
-#include "one_point.h"
 
 namespace test_tresca
 {
@@ -108,35 +104,6 @@ shear(const TrescaParameters &parameters, const double gamma, const unsigned int
 }
 
 
-/// Largest error over s_u against tau = s_u(gamma - tau/G) of slow clay.
-double error_of_softening(const unsigned int n)
-{
-  const TrescaParameters parameters = sensitive_clay();
-  const double gamma = 0.5, G = Tresca(parameters).shear_modulus, peak = 2e4, St = parameters.sensitivity;
-  const std::vector<double> found = shear(parameters, gamma, n, 0);
-  double largest = 0, exact = 0;
-  for (unsigned int step = 0; step < n; ++step)
-    {
-      const double now = gamma * (step + 1) / n;
-      if (G * now < peak)
-        exact = G * now;
-      else
-        for (unsigned int i = 0; i < 200; ++i)
-          exact = peak * (1 / St + (1 - 1 / St) * std::exp(-3 * (now - exact / G) / parameters.remoulding_strain));
-      largest = std::max(largest, std::abs(found[step] - exact) / peak);
-    }
-  return largest;
-}
-
-
-void test_shear()
-{
-  const double coarse = error_of_softening(1000), fine = error_of_softening(4000);
-  expect(coarse, 0, 1e-2, "error of tau in 1000 steps");
-  expect(coarse / fine, 4, 0.3, "gain of four times as many steps"); // first order
-}
-
-
 void test_rates()
 {
   TrescaParameters parameters = fast_clay();
@@ -189,7 +156,10 @@ const UnitTest registered("tresca", [] {
   test_random("mud, n = 0.5", mud(2e3, 0.5), random);
   test_random("mud, n = 1", mud(2e3, 1), random);
   test_random("mud, n = 1.5", mud(2e3, 1.5), random);
-  test_shear();
+  // The remoulding strain is that to 95 % of the fall.
+  const TrescaParameters slow_clay = sensitive_clay();
+  test_falling_shear(
+      Tresca(slow_clay), 0.5, { 2e4, 2e4 / slow_clay.sensitivity, 3 / slow_clay.remoulding_strain }, 1e-2, 0.3);
   test_rates();
   test_place();
 });

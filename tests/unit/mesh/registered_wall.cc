@@ -39,15 +39,7 @@ void run()
   for (const std::string wrong : { "rough", "rough 200", "rough -1", "rougher 1", "rough one" })
     {
       parameters.texts["Left"] = wrong;
-      try
-        {
-          parameters.check(2);
-          require(false, wrong + " is no wall, but is taken.");
-        }
-      catch (const EntryError &error)
-        {
-          require(std::string(error.what()).find("| rough PERCENT") != std::string::npos, "Not listed: rough");
-        }
+      expect_refusal([&] { parameters.check(2); }, "| rough PERCENT", "wall " + wrong);
     }
 }
 

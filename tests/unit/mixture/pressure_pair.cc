@@ -134,11 +134,8 @@ public:
     for (const unsigned int node : flow.active_nodes())
       {
         const auto [mixture, discharge] = function(grid.node_position(node));
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            flow[node][c]       = mixture[c];
-            flow[node][dim + c] = discharge[c];
-          }
+        set_vector(flow[node], 0, mixture);
+        set_vector(flow[node], dim, discharge);
       }
     flow.update_ghosts();
   }

@@ -53,8 +53,7 @@ struct Nodes
   void move(const Velocity<dim> &velocity)
   {
     for (const unsigned int node : masses.active_nodes())
-      for (unsigned int c = 0; c < dim; ++c)
-        motion[node][NodalField<dim>::velocity + c] = velocity(grid.node_position(node))[c];
+      set_vector(motion[node], NodalField<dim>::velocity, velocity(grid.node_position(node)));
     find_forces();
   }
 
@@ -70,8 +69,7 @@ struct Nodes
   {
     double power = 0;
     for (const unsigned int node : masses.active_nodes())
-      for (unsigned int c = 0; c < dim; ++c)
-        power += forces[node][NodalField<dim>::force + c] * velocity(grid.node_position(node))[c];
+      power += vector_of<dim>(forces[node], NodalField<dim>::force) * velocity(grid.node_position(node));
     return sum_of_ranks(power);
   }
 
@@ -79,8 +77,7 @@ struct Nodes
   {
     double size = 0;
     for (const unsigned int node : masses.active_nodes())
-      for (unsigned int c = 0; c < dim; ++c)
-        size += std::abs(forces[node][NodalField<dim>::force + c]);
+      size += vector_of<dim>(forces[node], NodalField<dim>::force).norm();
     return sum_of_ranks(size);
   }
 
@@ -90,19 +87,16 @@ struct Nodes
     double rate = 0;
     for (unsigned int iteration = 0; iteration < 100; ++iteration)
       {
-        double square = 0;
+        double square          = 0;
+        const auto velocity_of = [&](const unsigned int node) {
+          const double mass = masses[node][NodalField<dim>::mass];
+          return mass > 0. ? vector_of<dim>(forces[node], NodalField<dim>::force) / -mass : Tensor<1, dim>();
+        };
         for (const unsigned int node : masses.active_nodes())
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              const double mass = masses[node][NodalField<dim>::mass];
-              double &v         = motion[node][NodalField<dim>::velocity + c];
-              v                 = mass > 0. ? -forces[node][NodalField<dim>::force + c] / mass : 0.;
-              square += mass * v * v;
-            }
+          square += masses[node][NodalField<dim>::mass] * velocity_of(node).norm_square();
         rate = std::sqrt(sum_of_ranks(square));
         for (const unsigned int node : masses.active_nodes())
-          for (unsigned int c = 0; c < dim; ++c)
-            motion[node][NodalField<dim>::velocity + c] /= rate;
+          set_vector<dim>(motion[node], NodalField<dim>::velocity, velocity_of(node) / rate);
         find_forces();
       }
     return rate;

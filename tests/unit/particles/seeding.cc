@@ -124,9 +124,8 @@ void test_single_point(const std::vector<double> &upper_corner)
     const double volume      = properties[water.layout.volume];
     expect(volume / (porosity * properties[soil.layout.volume]), 1., 1e-13, "volume of water over that of pores");
     expect(properties[water.layout.mass] / (1000. * volume), 1., 1e-14, "mass of water over density times volume");
-    for (unsigned int a = 0; a < dim; ++a)
-      require(properties[water.layout.velocity + a] == properties[soil.layout.velocity + a],
-              "The water does not move with the soil.");
+    require(vector_of<dim>(properties, water.layout.velocity) == vector_of<dim>(properties, soil.layout.velocity),
+            "The water does not move with the soil.");
   });
 }
 

@@ -42,11 +42,9 @@ struct Scene : SoilScene<dim>
             Point<dim> reference;
             for (unsigned int a = 0; a < dim; ++a)
               reference[a] = (i >> a) & 1 ? 0.75 : 0.25;
-            const Point<dim> location = cell->vertex(0) + grid.cell_size() * reference;
-            set.points().handler().insert_particle(location, reference, id++, cell, properties);
+            set.points().add(cell, cell->vertex(0) + grid.cell_size() * reference, id++, properties);
           }
-    set.points().handler().update_cached_numbers();
-    set.points().sort();
+    set.points().finish_adding();
   }
 
   /// Gives the water points the pressure of their place.

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Values at places, columns above the ground, the front and the lasting numbers of points, of fields made by hand.
+// Values at places, columns above the ground and the front, of fields made by hand.
 #include "../soil.h"
 
 
 #include <scree/postprocess/measures.h>
 #include <scree/postprocess/probes.h>
-
-#include <map>
 
 namespace test_output_probes
 {
@@ -114,50 +112,12 @@ void test_wedge()
 }
 
 
-/// Numbers stay unique and with their points through moves, sorts and changes of rank.
-template <int dim>
-void test_ids()
-{
-  Block<dim> block("x < 0.5 && y < 0.3");
-  auto &points        = block.bodies.back().points;
-  const auto slot     = block.water.back().layout.pressure; // keeps x at the start
-  const auto contents = [&]() {
-    std::map<types::particle_index, double> start_of; // of this rank
-    for (unsigned int c = 0; c < points.cells().size(); ++c)
-      {
-        const auto ids = points.ids(c);
-        AssertDimension(ids.size(), points.cells()[c].n_points);
-        for (unsigned int p = 0; p < ids.size(); ++p)
-          start_of[ids[p]] = points.cells()[c].properties_of(p)[slot];
-      }
-    std::map<types::particle_index, double> all;
-    for (const auto &of_rank : Utilities::MPI::all_gather(MPI_COMM_WORLD, start_of))
-      all.insert(of_rank.begin(), of_rank.end());
-    expect(all.size(), points.handler().n_global_particles(), 0., "number of different numbers");
-    return all;
-  };
-  for_each_point(points, [&](const auto &point) { point.properties[slot] = point.location[0]; });
-  const auto before = contents();
-  for (unsigned int step = 0; step < 6; ++step)
-    {
-      for_each_point(points, [&](const auto &point) {
-        point.location[0] += 0.04;
-        point.location[1] += point.location[0] > 0.3 ? 0.05 : 0.;
-      });
-      step % 3 == 2 ? points.sort() : points.hand_over();
-    }
-  require(contents() == before, "Points have exchanged their numbers.");
-}
-
-
 const UnitTest registered("output_probes", [] {
   test_places<2>();
   test_places<3>();
   test_columns<2>();
   test_columns<3>();
   test_wedge();
-  test_ids<2>();
-  test_ids<3>();
 });
 } // namespace test_output_probes
 

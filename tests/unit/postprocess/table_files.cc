@@ -11,33 +11,30 @@
 #include <boost/archive/text_oarchive.hpp>
 
 #include <filesystem>
+#include <map>
 #include <sstream>
 
 namespace test_table_files
 {
-void print_names()
+void test_names()
 {
-  for (const std::string column : { "Time (s)",
-                                    "Step",
-                                    "Momentum x (N s)",
-                                    "Front 90 % (m)",
-                                    "Front 99.5 % (m)",
-                                    "Stress oscillation (-)",
-                                    "p oscillation (-)",
-                                    "Obstacle Pier-1 moment z (N m)",
-                                    "Velocity x (m/s)",
-                                    "mass (kg/m^2)",
-                                    "Density (kg/m^3)",
-                                    "Rate (1/s)",
-                                    "Fill (%)" })
-    std::cout << column << " -> " << csv_name(column) << '\n';
-  std::cout << csv_head({ "Time (s)", "Force A (N)", "Force a (N)" });
-}
-
-
-void print_file(const std::string &file)
-{
-  std::cout << file << ":\n" << read_whole_file(file);
+  for (const auto &[column, name] :
+       std::map<std::string, std::string>{ { "Time (s)", "time_s" },
+                                           { "Step", "step" },
+                                           { "Momentum x (N s)", "momentum_x_Ns" },
+                                           { "Front 90 % (m)", "front_90_m" },
+                                           { "Front 99.5 % (m)", "front_99_5_m" },
+                                           { "Stress oscillation (-)", "stress_oscillation" },
+                                           { "p oscillation (-)", "p_oscillation" },
+                                           { "Obstacle Pier-1 moment z (N m)", "obstacle_pier_1_moment_z_Nm" },
+                                           { "Velocity x (m/s)", "velocity_x_m_s" },
+                                           { "mass (kg/m^2)", "mass_kg_m2" },
+                                           { "Density (kg/m^3)", "density_kg_m3" },
+                                           { "Rate (1/s)", "rate_1_s" },
+                                           { "Fill (%)", "fill_percent" } })
+    expect_text(csv_name(column), name, column);
+  expect_text(
+      csv_head({ "Time (s)", "Force A (N)", "Force a (N)" }), "time_s,force_a_N,force_a_N_2\n", "names by case");
 }
 
 
@@ -52,67 +49,35 @@ void grow()
   std::stringstream checkpoint;
   boost::archive::text_oarchive(checkpoint) << before;
   before.append(columns, { { 0.1, std::numeric_limits<double>::quiet_NaN(), 12. }, { 0.2, 1e-20, 24. } });
-  print_file("tables/table.csv");
+  const std::string head = "time_s,front_90_m,step\n0,0.3333333333333,0\n";
+  expect_text(read_whole_file("tables/table.csv"), head + "0.1,nan,12\n0.2,1e-20,24\n", "table.csv");
   boost::archive::text_iarchive(checkpoint) >> after;
   after.cut();
   after.append(columns, { { 0.1, 1e6, 12. } });
   after.sync();
   after.complete();
-  print_file("tables/table");
-  print_file("tables/table.csv");
+  expect_text(read_whole_file("tables/table"),
+              "# 1: Time (s)\n# 2: Front 90 % (m)\n# 3: Step\n"
+              "0.000000000000e+00 3.333333333333e-01 0.000000000000e+00 \n"
+              "1.000000000000e-01 1.000000000000e+06 1.200000000000e+01 \n",
+              "table after a resume");
+  expect_text(read_whole_file("tables/table.csv"), head + "0.1,1000000,12\n", "table.csv after a resume");
 }
 
 
-void print_labels()
+/// Times of the start, of an interval and of the end in names of files.
+void test_label(const double end, const double interval, const std::string &expected)
 {
-  for (const auto &[end, interval] :
-       std::vector<std::pair<double, double>>{ { 40., 5. }, { 2., 0.05 }, { 1., 1. / 3. } })
-    {
-      const TimeLabel label(end, interval);
-      std::cout << "end " << end << " s, every " << interval << " s: " << label(0.) << ' ' << label(interval) << ' '
-                << label(end) << '\n';
-    }
+  const TimeLabel label(end, interval);
+  expect_text(label(0.) + ' ' + label(interval) + ' ' + label(end), expected, "end " + std::to_string(end));
 }
 
 
 const UnitTest registered_test("table_files", [] {
-  print_names();
+  test_names();
   grow();
-  print_labels();
+  test_label(40., 5., "00s 05s 40s");
+  test_label(2., 0.05, "0.00s 0.05s 2.00s");
+  test_label(1., 1. / 3., "0.000000000s 0.333333333s 1.000000000s");
 });
 } // namespace test_table_files
-
-
-// Output:
-// Time (s) -> time_s
-// Step -> step
-// Momentum x (N s) -> momentum_x_Ns
-// Front 90 % (m) -> front_90_m
-// Front 99.5 % (m) -> front_99_5_m
-// Stress oscillation (-) -> stress_oscillation
-// p oscillation (-) -> p_oscillation
-// Obstacle Pier-1 moment z (N m) -> obstacle_pier_1_moment_z_Nm
-// Velocity x (m/s) -> velocity_x_m_s
-// mass (kg/m^2) -> mass_kg_m2
-// Density (kg/m^3) -> density_kg_m3
-// Rate (1/s) -> rate_1_s
-// Fill (%) -> fill_percent
-// time_s,force_a_N,force_a_N_2
-// tables/table.csv:
-// time_s,front_90_m,step
-// 0,0.3333333333333,0
-// 0.1,nan,12
-// 0.2,1e-20,24
-// tables/table:
-// # 1: Time (s)
-// # 2: Front 90 % (m)
-// # 3: Step
-// 0.000000000000e+00 3.333333333333e-01 0.000000000000e+00
-// 1.000000000000e-01 1.000000000000e+06 1.200000000000e+01
-// tables/table.csv:
-// time_s,front_90_m,step
-// 0,0.3333333333333,0
-// 0.1,1000000,12
-// end 40 s, every 5 s: 00s 05s 40s
-// end 2 s, every 0.05 s: 0.00s 0.05s 2.00s
-// end 1 s, every 0.333333 s: 0.000000000s 0.333333333s 1.000000000s

@@ -4,8 +4,9 @@
 // that a rigid rotation has none, and it acts at the nodes as the stress does.
 #include "../soil.h"
 
-#include <scree/tensor/matrix.h>
 #include <scree/transfer/transfer.h>
+
+#include <deal.II/base/symmetric_tensor.h>
 
 
 namespace test_skeleton_damping
@@ -33,31 +34,23 @@ void test()
       std::vector<double> change;
       for (unsigned int p = 0; p < cell.n_points; ++p)
         {
-          Tensor<2, dim> turn = unit_symmetric_tensor<dim>();
+          Tensor<2, 3> turn = unit_symmetric_tensor<3>();
           for (unsigned int i = 0; i < dim; ++i)
             for (unsigned int j = i + 1; j < dim; ++j)
               {
                 turn[i][j] = angle * random.uniform(-1, 1);
                 turn[j][i] = -turn[i][j];
               }
-          double *to = cell.properties_of(p) + stress;
-          Tensor<2, dim> turned;
-          for (unsigned int i = 0; i < dim; ++i)
-            for (unsigned int j = 0; j < dim; ++j)
-              turned[i][j] = matrix_of_components<dim>(to)[i][j];
-          turned = turn * turned * transpose(turn);
-          for (unsigned int i = 0, c = 3; i < dim; ++i)
-            {
-              to[i] = turned[i][i];
-              for (unsigned int j = 0; j < dim; ++j)
-                motion.deformation_increment[(i * dim + j) * motion.pitch + p] = turn[i][j];
-              for (unsigned int j = i + 1; j < dim; ++j, ++c)
-                to[c] = turned[i][j];
-            }
+          for (unsigned int i = 0; i < dim * dim; ++i)
+            motion.deformation_increment[i * motion.pitch + p] = turn[i / dim][i % dim];
+          double *to = cell.properties_of(p) + stress, components[6] = {};
+          std::copy_n(to, n, components);
+          const Tensor<2, 3> turned      = turn * SymmetricTensor<2, 3>(components) * transpose(turn);
+          constexpr unsigned int rows[6] = { 0, 1, 2, 0, 0, 1 }, columns[6] = { 0, 1, 2, 1, 2, 2 };
           for (unsigned int c = 0; c < n; ++c)
             {
               change.push_back(random.uniform(-1., 1.));
-              to[c] += change.back();
+              to[c] = turned[rows[c]][columns[c]] + change.back();
             }
         }
       of_cell.finish(body, cell, cell.n_points, motion, rate);

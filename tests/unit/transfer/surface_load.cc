@@ -57,16 +57,12 @@ void test_patch(const std::string &basis,
   double nodal_work = 0;
   for (const unsigned int node : field.active_nodes())
     {
-      double *values = field[node];
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          const double v = velocity(grid.node_position(node))[c];
-          nodal_sum[c] += values[NodalField<dim>::force + c];
-          nodal_work += 0.75 * step * values[NodalField<dim>::force + c] * v;
-          values[NodalField<dim>::velocity + c]        = v;
-          values[NodalField<dim>::velocity_change + c] = 0.5 * v;
-        }
-      values[NodalField<dim>::mass] = 1;
+      const auto v = velocity(grid.node_position(node)), of_node = vector_of<dim>(field[node], NodalField<dim>::force);
+      nodal_sum += of_node;
+      nodal_work += 0.75 * step * of_node * v;
+      set_vector(field[node], NodalField<dim>::velocity, v);
+      set_vector<dim>(field[node], NodalField<dim>::velocity_change, 0.5 * v);
+      field[node][NodalField<dim>::mass] = 1;
     }
   expect((sum_of_ranks(nodal_sum) - force).norm() / force.norm(), 0., 1e-12, "error of the force at the nodes");
   field.update_ghosts();

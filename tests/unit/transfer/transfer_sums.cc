@@ -32,12 +32,10 @@ void test(const std::string &basis, const std::string &method)
       properties[body.layout.stress + c] = random.uniform(-1e4, 1e4);
     for (unsigned int c = 0; affine && c < dim * dim; ++c)
       properties[body.layout.affine + c] = random.uniform(-1, 1);
+    const Tensor<1, dim> velocity = random.point<dim>(-1, 1);
+    set_vector(properties, body.layout.velocity, velocity);
     points_mass += properties[body.layout.mass];
-    for (unsigned int a = 0; a < dim; ++a)
-      {
-        properties[body.layout.velocity + a] = random.uniform(-1, 1);
-        points_momentum[a] += properties[body.layout.mass] * properties[body.layout.velocity + a];
-      }
+    points_momentum += properties[body.layout.mass] * velocity;
   });
 
   NodalField<dim> field(grid);
@@ -52,12 +50,9 @@ void test(const std::string &basis, const std::string &method)
       const double *values = field[node];
       require(values[NodalField<dim>::mass] >= 0., "A node has a negative mass.");
       mass += values[NodalField<dim>::mass];
-      for (unsigned int a = 0; a < dim; ++a)
-        {
-          momentum[a] += values[NodalField<dim>::momentum + a];
-          force[a] += values[NodalField<dim>::force + a];
-          size_of_forces += std::abs(values[NodalField<dim>::force + a]);
-        }
+      momentum += vector_of<dim>(values, NodalField<dim>::momentum);
+      force += vector_of<dim>(values, NodalField<dim>::force);
+      size_of_forces += vector_of<dim>(values, NodalField<dim>::force).norm();
     }
   // Rounding of sums of some thousand terms; momentum relative to mass times the largest speed.
   const double all_mass = sum_of_ranks(points_mass), all_forces = sum_of_ranks(size_of_forces);
@@ -69,29 +64,31 @@ void test(const std::string &basis, const std::string &method)
     return;
 
   // a + G x, with a = 1 and G = i + 2 j.
-  const auto linear = [](const Point<dim> &x, const unsigned int i) {
-    double value = 1.;
+  Tensor<1, dim> constant;
+  Tensor<2, dim> gradient;
+  for (unsigned int i = 0; i < dim; ++i)
     for (unsigned int j = 0; j < dim; ++j)
-      value += (i + 2. * j) * x[j];
-    return value;
-  };
-  for_each_point(body.points, [&](const auto &point) {
-    for (unsigned int i = 0; i < dim; ++i)
       {
-        point.properties[body.layout.velocity + i] = linear(point.location, i);
-        for (unsigned int j = 0; j < dim; ++j)
-          point.properties[body.layout.affine + i * dim + j] = i + 2. * j;
+        constant[i]    = 1.;
+        gradient[i][j] = i + 2. * j;
       }
+  for_each_point(body.points, [&](const auto &point) {
+    set_vector<dim>(point.properties, body.layout.velocity, constant + gradient * point.location);
+    for (unsigned int i = 0; i < dim; ++i)
+      set_vector(point.properties, body.layout.affine + i * dim, gradient[i]);
   });
   field.clear();
   transfer.to_grid(body, field);
   field.add_contributions();
   for (const unsigned int node : field.active_nodes())
-    for (unsigned int i = 0; i < dim; ++i)
-      expect(field[node][NodalField<dim>::momentum + i],
-             field[node][NodalField<dim>::mass] * linear(grid.node_position(node), i),
+    {
+      const Tensor<1, dim> expected = constant + gradient * grid.node_position(node);
+      const auto momentum_of_node   = vector_of<dim>(field[node], NodalField<dim>::momentum);
+      expect((momentum_of_node - field[node][NodalField<dim>::mass] * expected).norm(),
+             0.,
              1e-12 * all_mass,
-             method + ": momentum of a linear field");
+             method + ": error of the momentum of a linear field");
+    }
 }
 
 

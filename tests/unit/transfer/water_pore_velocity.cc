@@ -62,9 +62,9 @@ namespace
         if (const double solid = 1000. * pores[node][PoreField<dim>::local_solid_volume]; solid > 0.)
           pores[node][PoreField<dim>::grain_fraction] = solid / (water_field[node][Field::mass] + solid);
       for (const unsigned int node : water_field.active_nodes())
-        for (unsigned int c = 0; c < dim; ++c)
-          if (const double mass = water_field[node][Field::mass]; mass > 0.)
-            water_field[node][Field::velocity + c] /= mass;
+        if (const double mass = water_field[node][Field::mass]; mass > 0.)
+          set_vector<dim>(
+              water_field[node], Field::velocity, vector_of<dim>(water_field[node], Field::velocity) / mass);
     }
 
     /// Random velocities of soil and water at the nodes.
@@ -114,32 +114,25 @@ namespace
     Scene<dim> scene(basis, method, "x + 0.7 * y < 0.37");
     shake(scene.soil.points);
     shake(scene.water.points());
-    for_each_point(scene.water.points(), [&](const auto &point) {
-      for (unsigned int c = 0; c < dim; ++c)
-        point.properties[scene.water.layout.velocity + c] = 0.;
-    });
+    const auto &layout = scene.water.layout;
+    for_each_point(scene.water.points(),
+                   [&](const auto &point) { set_vector(point.properties, layout.velocity, Tensor<1, dim>()); });
     scene.gather();
     scene.move_nodes();
     scene.scatter();
-    std::vector<double> sums(dim + 1, 0.);
+    Tensor<1, dim> sum;
+    double size = 0.;
     for_each_point(scene.water.points(), [&](const auto &point) {
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          const double momentum =
-              point.properties[scene.water.layout.mass] * point.properties[scene.water.layout.velocity + c];
-          sums[c] += momentum;
-          sums[dim] += std::abs(momentum);
-        }
+      const auto momentum = point.properties[layout.mass] * vector_of<dim>(point.properties, layout.velocity);
+      sum += momentum;
+      size += momentum.norm();
     });
     for (const unsigned int node : scene.water_field.active_nodes())
-      for (unsigned int c = 0; c < dim; ++c)
-        sums[c] -=
-            scene.water_field[node][NodalField<dim>::mass] * scene.water_field[node][NodalField<dim>::velocity + c];
-    Utilities::MPI::sum(sums, MPI_COMM_WORLD, sums);
-    double error = 0;
-    for (unsigned int c = 0; c < dim; ++c)
-      error = std::max(error, std::abs(sums[c]) / sums[dim]);
-    return error;
+      {
+        const double *values = scene.water_field[node];
+        sum -= values[NodalField<dim>::mass] * vector_of<dim>(values, NodalField<dim>::velocity);
+      }
+    return sum_of_ranks(sum).norm() / sum_of_ranks(size);
   }
 
   /// Largest difference of a point's velocity, or of what its gradient adds over a cell, from U/n_p, over U.
@@ -149,12 +142,10 @@ namespace
     const double flux = 0.02; // m/s
     Scene<dim> scene("spline", method, "x < 0.25");
     const auto &layout  = scene.water.layout;
-    const auto velocity = [&](const double x) { return x < 0.25 ? flux / 0.4 : flux; };
+    const auto velocity = [&](const double x) { return (x < 0.25 ? flux / 0.4 : flux) * Point<dim>::unit_vector(0); };
     for_each_point(scene.water.points(), [&](const auto &point) {
-      for (unsigned int i = 0; i < dim * dim; ++i)
-        point.properties[layout.affine + i] = 0.;
-      for (unsigned int c = 0; c < dim; ++c)
-        point.properties[layout.velocity + c] = c == 0 ? velocity(point.location[0]) : 0.;
+      std::fill_n(point.properties + layout.affine, dim * dim, 0.);
+      set_vector<dim>(point.properties, layout.velocity, velocity(point.location[0]));
     });
     scene.gather();
     std::vector<Point<dim>> places;
@@ -163,13 +154,11 @@ namespace
     double error       = 0;
     unsigned int index = 0;
     for_each_point(scene.water.points(), [&](const auto &point) {
-      const Point<dim> place = places[index++];
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          const double expected = c == 0 ? velocity(place[0]) : 0.;
-          error                 = std::max(error, std::abs(point.properties[layout.velocity + c] - expected) / flux);
-          error                 = std::max(error, std::abs((point.location - place)[c] / time_step - expected) / flux);
-        }
+      const Point<dim> place        = places[index++];
+      const Tensor<1, dim> expected = velocity(place[0]);
+      error                         = std::max({ error,
+                                                 (vector_of<dim>(point.properties, layout.velocity) - expected).norm() / flux,
+                                                 ((point.location - place) / time_step - expected).norm() / flux });
       if (method == "TPIC")
         for (unsigned int i = 0; i < dim * dim; ++i)
           error = std::max(error, std::abs(point.properties[layout.affine + i]) * scene.grid.cell_size() / flux);
@@ -191,16 +180,14 @@ namespace
     // Nodes of the same motion, of which one set knows nothing of soil.
     scene.scatter();
     same.scatter();
-    std::vector<double> velocities;
-    for_each_point(same.water.points(), [&](const auto &point) {
-      for (unsigned int c = 0; c < dim; ++c)
-        velocities.push_back(point.properties[same.water.layout.velocity + c]);
-    });
+    std::vector<Tensor<1, dim>> velocities;
+    const unsigned int first = same.water.layout.velocity;
+    for_each_point(same.water.points(),
+                   [&](const auto &point) { velocities.push_back(vector_of<dim>(point.properties, first)); });
     double error       = 0;
     unsigned int index = 0;
     for_each_point(scene.water.points(), [&](const auto &point) {
-      for (unsigned int c = 0; c < dim; ++c)
-        error = std::max(error, std::abs(point.properties[scene.water.layout.velocity + c] - velocities[index++]));
+      error = std::max(error, (vector_of<dim>(point.properties, first) - velocities[index++]).norm());
     });
     return error;
   }
