@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #if defined(__AVX2__)
 #  include <immintrin.h>
@@ -116,7 +117,7 @@ namespace scree
   namespace simd
   {
     /// Comparisons of batches: all bits of a lane are set where they hold, else none.
-    using BatchBits = std::int64_t __attribute__((vector_size(batch_size * sizeof(double))));
+    using BatchBits = decltype(std::declval<Batch>() > std::declval<Batch>());
 
     /// The type of comparisons; combine them by &, | and !.
     template <typename Number>
