@@ -55,8 +55,8 @@ namespace scree
     std::array<Batch, n_points> sums{};
     for (const Simplex<dim> &simplex : simplices)
       {
-        const double volume         = volume_of(simplex);
-        const Tensor<2, dim> &edges = edges_of(simplex);
+        const double volume        = volume_of(simplex);
+        const Tensor<2, dim> edges = edges_of(simplex);
         fraction += volume;
         for (const auto &of_rule : rule.points)
           {

@@ -106,8 +106,8 @@ namespace scree
     const DiscreteLevelSet<dim> *bed;
     const BoundaryConditions<dim> *walls;
     RunFolder &folder;
-    std::array<double, 2 * dim> front_at_start;                 // smallest distance of soil from each face, m
-    std::array<double, 2 * dim> top_at_start;                   // height of the highest soil within a cell of it, m
+    std::array<double, 2 * dim> front_at_start{};               // smallest distance of soil from each face, m
+    std::array<double, 2 * dim> top_at_start{};                 // height of the highest soil within a cell of it, m
     double usual_speed_of_soil = 0., usual_speed_of_water = 0.; // largest 99.9 % quantiles so far, m/s
     Suspects now, worst;
     std::array<bool, n_checks> is_told{};

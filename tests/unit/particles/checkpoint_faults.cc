@@ -224,7 +224,7 @@ void test_folders(const std::vector<double> &sums)
   test_damage([] { set_content(newer + "manifest", "Scree checkpoint, format 1\nchecksum: 87f4fa9080897eca\n"); },
               not_used + newer +
                   "manifest: begins with \"Scree checkpoint, format 1\", but this program reads \"Scree " +
-                  "checkpoint, format 20\". Step 1",
+                  "checkpoint, format 21\". Step 1",
               sums);
   test_damage(
       [&] {
