@@ -104,26 +104,6 @@ namespace scree
                            "Water, or a box that is higher than the water."));
   }
 
-
-  template <int dim>
-  void PressureOperator<dim>::hold(const std::vector<char> &is_held)
-  {
-    all_unknown = unknown;
-    VertexVector marks(numbering.partitioner());
-    for (unsigned int i = 0; i < is_held.size(); ++i)
-      marks.local_element(i) = is_held[i];
-    marks.update_ghost_values();
-    for (unsigned int i = 0; i < unknown.size(); ++i)
-      unknown[i] = unknown[i] && marks.local_element(i) == 0.;
-  }
-
-
-  template <int dim>
-  void PressureOperator<dim>::release()
-  {
-    unknown = all_unknown;
-  }
-
   template class PressureOperator<2>;
   template class PressureOperator<3>;
 } // namespace scree

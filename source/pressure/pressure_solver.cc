@@ -64,6 +64,7 @@ namespace scree
                                &solution,
                                &residual,
                                &scratch,
+                               &last_solution,
                                &remainder,
                                &preconditioned,
                                &product,
@@ -110,14 +111,6 @@ namespace scree
 
 
   template <int dim>
-  void PressureSolver<dim>::keep_held_motion(typename GroundRows<dim>::Vectors &flows) const
-  {
-    for (unsigned int k = 0; k < flows.size(); ++k)
-      flows[k] = (*rows)[k].held_part(flows[k]);
-  }
-
-
-  template <int dim>
   void PressureSolver<dim>::take(const VertexVector &from, VertexVector &to) const
   {
     to = 0.;
@@ -128,75 +121,187 @@ namespace scree
 
 
   template <int dim>
+  void PressureSolver<dim>::precondition(const Joint &from, Joint &to)
+  {
+    preconditioner->vmult(to.of_vertices, from.of_vertices);
+    for (unsigned int i = 0; i < system.n_owned(); ++i)
+      if (diagonal_of_number[i] > 0.) // else no part of a cell reaches the vertex
+        to.of_vertices.local_element(i) += part_of_diagonal / diagonal_of_number[i] * from.of_vertices.local_element(i);
+    if (ground)
+      ground->precondition(from.of_rows, to.of_rows);
+    restrict_to_free(to);
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::restrict_to_free(Joint &vector) const
+  {
+    for (unsigned int i = 0; i < is_held.size(); ++i)
+      if (is_held[i])
+        vector.of_vertices.local_element(i) = 0.;
+    for (unsigned int k = 0; k < vector.of_rows.size(); ++k)
+      vector.of_rows[k] = (*rows)[k].held_part(vector.of_rows[k]);
+  }
+
+
+  template <int dim>
+  double PressureSolver<dim>::find_release(Joint &result) const
+  {
+    double square = 0.;
+    result.clear(source.of_rows.size());
+    for (unsigned int i = 0; i < least_change.size(); ++i)
+      if (const double flow = residual.of_vertices.local_element(i); is_held[i] && flow > 0.)
+        {
+          result.of_vertices.local_element(i) = flow / diagonal_of_number[i];
+          square += flow * flow;
+        }
+    for (unsigned int k = 0; k < residual.of_rows.size(); ++k)
+      {
+        const GroundRow<dim> &row = (*rows)[k];
+        const double flow         = residual.of_rows[k] * row.normal;
+        if (row.held == HeldMotion::none && flow > 0. && row.diagonal > 0.)
+          {
+            result.of_rows[k] = flow / row.diagonal * row.normal;
+            square += weight_of_rows * flow * flow;
+          }
+      }
+    return square;
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::release(const Joint &along)
+  {
+    for (unsigned int i = 0; i < is_held.size(); ++i)
+      is_held[i] = is_held[i] && along.of_vertices.local_element(i) == 0.;
+    for (unsigned int k = 0; k < along.of_rows.size(); ++k)
+      if (along.of_rows[k].norm_square() > 0.)
+        (*rows)[k].held = HeldMotion::across;
+  }
+
+
+  template <int dim>
+  double PressureSolver<dim>::longest_step() const
+  {
+    double longest = std::numeric_limits<double>::infinity();
+    for (unsigned int i = 0; i < least_change.size(); ++i)
+      if (const double change = direction.of_vertices.local_element(i); change < 0.)
+        longest = std::min(longest, (least_change[i] - solution.of_vertices.local_element(i)) / change);
+    for (unsigned int k = 0; k < direction.of_rows.size(); ++k)
+      if (const double change = direction.of_rows[k] * (*rows)[k].normal; (*rows)[k].is_unilateral && change < 0.)
+        longest = std::min(longest, -(solution.of_rows[k] * (*rows)[k].normal) / change);
+    return longest;
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::project()
+  {
+    for (unsigned int i = 0; i < least_change.size(); ++i)
+      if (double &value = solution.of_vertices.local_element(i); system.is_unknown(i))
+        value = std::max(value, least_change[i]);
+    for (unsigned int k = 0; k < solution.of_rows.size(); ++k)
+      if ((*rows)[k].is_unilateral && solution.of_rows[k] * (*rows)[k].normal <= 0.)
+        solution.of_rows[k] = Tensor<1, dim>();
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::hold()
+  {
+    for (unsigned int i = 0; i < least_change.size(); ++i)
+      if (system.is_unknown(i) && solution.of_vertices.local_element(i) == least_change[i])
+        is_held[i] = true;
+    for (unsigned int k = 0; k < solution.of_rows.size(); ++k)
+      if (GroundRow<dim> &row = (*rows)[k]; row.is_unilateral && solution.of_rows[k] * row.normal == 0.)
+        {
+          row.held       = HeldMotion::none;
+          row.compliance = 0.;
+        }
+  }
+
+
+  template <int dim>
+  double PressureSolver<dim>::energy() const
+  {
+    return -0.5 * (product_of(solution, source) + product_of(solution, residual));
+  }
+
+
+  template <int dim>
   typename PressureSolver<dim>::Iterations PressureSolver<dim>::iterate(const unsigned int most)
   {
-    const unsigned int n_owned = system.n_owned(), n_rows = source.of_rows.size();
+    const MPI_Comm communicator = grid.communicator();
+    for (Joint *vector : { &preconditioned, &product, &direction })
+      vector->clear(source.of_rows.size());
     find_residual();
-    remainder = residual;
-    keep_held_motion(remainder.of_rows);
-    direction.clear(n_rows);
-    direction_product.clear(n_rows);
-    preconditioned.clear(n_rows);
-    product.clear(n_rows);
-    Iterations result{ 0, std::sqrt(Utilities::MPI::sum(local_square(remainder), grid.communicator())) };
-    double last_projection = 1., last_length = 1.;
-    while (result.residual > accepted && result.n < most)
+    Iterations result{ 0, 0. };
+    bool is_conjugate      = false; // the next direction to the last one
+    double last_projection = 1.;
+    for (;; ++result.n)
       {
-        preconditioner->vmult(preconditioned.of_vertices, remainder.of_vertices);
-        for (unsigned int i = 0; i < n_owned; ++i)
-          if (diagonal_of_number[i] > 0.) // else no part of a cell reaches the vertex
-            preconditioned.of_vertices.local_element(i) +=
-                part_of_diagonal / diagonal_of_number[i] * remainder.of_vertices.local_element(i);
-        if (ground)
-          ground->precondition(remainder.of_rows, preconditioned.of_rows);
-        vmult(product, preconditioned);
-        keep_held_motion(product.of_rows);
-
-        double rr = 0, rz = 0, zw = 0, rw = 0, ww = 0, rs = 0, ws = 0, ss = 0;
-        const auto add = [&](const double weight, const auto &r, const auto &z, const auto &w, const auto &s) {
-          rz += r * z;
-          zw += z * w;
-          rr += weight * (r * r);
-          rw += weight * (r * w);
-          ww += weight * (w * w);
-          rs += weight * (r * s);
-          ws += weight * (w * s);
-          ss += weight * (s * s);
+        remainder = residual;
+        restrict_to_free(remainder);
+        precondition(remainder, preconditioned);
+        std::array<double, 4> sums{
+          { local_square(remainder), find_release(scratch), product_of(remainder, preconditioned), energy() }
         };
-        const double *r = remainder.of_vertices.begin(), *z = preconditioned.of_vertices.begin(),
-                     *w = product.of_vertices.begin(), *s = direction_product.of_vertices.begin();
-        for (unsigned int i = 0; i < n_owned; ++i)
-          add(1., r[i], z[i], w[i], s[i]);
-        for (unsigned int k = 0; k < n_rows; ++k)
-          add(weight_of_rows,
-              remainder.of_rows[k],
-              preconditioned.of_rows[k],
-              product.of_rows[k],
-              direction_product.of_rows[k]);
-        std::array<double, 8> sums{ { rr, rz, zw, rw, ww, rs, ws, ss } };
         Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
-                            grid.communicator(),
+                            communicator,
                             ArrayView<double>(sums.data(), sums.size()));
-        std::tie(rr, rz, zw, rw, ww, rs, ws, ss) = std::tuple_cat(sums);
+        const auto [free, blocked, projection, energy_before] = sums;
+        result.residual                                       = std::sqrt(free + blocked);
+        if (result.residual <= accepted || result.n == most)
+          return result;
 
-        const double turn      = result.n == 0 ? 0. : rz / last_projection;
-        const double curvature = zw - (result.n == 0 ? 0. : turn * rz / last_length);
-        const double length    = rz / curvature;
-        direction.sadd(turn, 1., preconditioned);
-        direction_product.sadd(turn, 1., product);
+        const bool releases = blocked > free;
+        if (releases)
+          {
+            direction = scratch;
+            release(direction);
+          }
+        else
+          direction.sadd(is_conjugate ? projection / last_projection : 0., 1., preconditioned);
+        vmult(product, direction);
+        const auto of_ranks = Utilities::MPI::min_max_avg(
+            std::vector<double>{ product_of(direction, product), product_of(direction, residual), longest_step() },
+            communicator);
+        const double length    = of_ranks[1].sum / of_ranks[0].sum;
+        const double longest   = of_ranks[2].min;
+        const bool is_feasible = length < longest;
+        if (!is_feasible)
+          last_solution = solution;
         solution.sadd(1., length, direction);
-        remainder.sadd(1., -length, direction_product);
-        last_projection = rz;
-        last_length     = length;
-        ++result.n;
-
-        const double square =
-            rr - 2. * length * (rw + turn * rs) + length * length * (ww + 2. * turn * ws + turn * turn * ss);
-        constexpr double rounded_away = 1e-8;
-        result.residual               = square > rounded_away * rr
-                                            ? std::sqrt(square)
-                                            : std::sqrt(Utilities::MPI::sum(local_square(remainder), grid.communicator()));
+        last_projection = projection;
+        is_conjugate    = !releases && is_feasible;
+        if (is_feasible)
+          {
+            residual.sadd(1., -length, product);
+            continue;
+          }
+        project();
+        find_residual();
+        if (Utilities::MPI::sum(energy(), communicator) > energy_before)
+          {
+            constexpr double rounded = 1e-12;
+            solution                 = last_solution;
+            solution.sadd(1., (1. + rounded) * longest, direction);
+            project();
+            find_residual();
+          }
+        hold();
       }
+  }
+
+
+  template <int dim>
+  double PressureSolver<dim>::product_of(const Joint &a, const Joint &b)
+  {
+    double result = 0.;
+    for (unsigned int i = 0; i < a.of_vertices.locally_owned_size(); ++i)
+      result += a.of_vertices.local_element(i) * b.of_vertices.local_element(i);
+    for (unsigned int k = 0; k < a.of_rows.size(); ++k)
+      result += a.of_rows[k] * b.of_rows[k];
     return result;
   }
 
@@ -237,10 +342,6 @@ namespace scree
   template <int dim>
   void PressureSolver<dim>::converge(SolveReport &report)
   {
-    const bool holds_some = std::find(is_held.begin(), is_held.end(), char(true)) != is_held.end();
-    const bool any_held   = Utilities::MPI::logical_or(holds_some, grid.communicator());
-    if (any_held)
-      system.hold(is_held);
     Iterations last{};
     const auto has_converged = [&](const unsigned int most) {
       last = iterate(most);
@@ -266,8 +367,6 @@ namespace scree
         iterations_when_new = last.n;
         surplus_iterations  = 0;
       }
-    if (any_held)
-      system.release();
   }
 
 
@@ -280,10 +379,8 @@ namespace scree
         const double pressing = row.traction * row.normal;
         if (!row.is_unilateral)
           row.held = row.friction > 0. ? HeldMotion::all : HeldMotion::across;
-        else if (pressing > 0. || row.flow * row.normal > 0.)
-          row.held = HeldMotion::across;
         else
-          row.held = HeldMotion::none;
+          row.held = pressing > 0. ? HeldMotion::across : HeldMotion::none;
         if (row.is_unilateral && (pressing <= 0. || row.friction == 0.))
           row.traction = std::max(pressing, 0.) * row.normal;
         source.of_rows[k]   = row.flow;
@@ -293,61 +390,11 @@ namespace scree
 
 
   template <int dim>
-  double PressureSolver<dim>::choose_vertices(const Task &task, const bool releases)
-  {
-    double change = 0.;
-    for (unsigned int i = 0; i < is_held.size(); ++i)
-      if (system.is_unknown(i))
-        {
-          double &value      = solution.of_vertices.local_element(i);
-          const double left  = residual.of_vertices.local_element(i);
-          const double least = task.least_pressure - task.pressure.local_element(numbering.vertex(i));
-          const bool holds   = is_held[i] ? !releases || left <= accepted : value < least;
-          if (holds != bool(is_held[i]))
-            change += holds ? std::pow(diagonal_of_number[i] * (least - value), 2) : left * left;
-          is_held[i] = holds;
-          if (holds)
-            value = least;
-        }
-    return change;
-  }
-
-
-  template <int dim>
-  double PressureSolver<dim>::choose_rows(const bool releases)
-  {
-    double change = 0.;
-    for (unsigned int k = 0; k < source.of_rows.size(); ++k)
-      {
-        GroundRow<dim> &row = (*rows)[k];
-        if (!row.is_unilateral)
-          continue;
-        Tensor<1, dim> &traction = solution.of_rows[k];
-        const double pressing = traction * row.normal, inflow = residual.of_rows[k] * row.normal;
-        if (row.held == HeldMotion::none && inflow > 0.)
-          {
-            row.held = HeldMotion::across;
-            change += inflow * inflow;
-          }
-        else if (releases && row.held != HeldMotion::none && pressing <= 0.)
-          {
-            change += (row.diagonal * traction).norm_square();
-            row.held       = HeldMotion::none;
-            row.compliance = 0.;
-            traction       = Tensor<1, dim>();
-          }
-      }
-    return weight_of_rows * change;
-  }
-
-
-  template <int dim>
-  double PressureSolver<dim>::choose_friction()
+  void PressureSolver<dim>::choose_friction()
   {
     // A row responds by more than its diagonal. By the sum of its row, those of small facets swing between stick and
     // slip.
     constexpr double part_of_response = 0.3;
-    double change                     = 0.;
     for (unsigned int k = 0; k < source.of_rows.size(); ++k)
       {
         GroundRow<dim> &row = (*rows)[k];
@@ -360,13 +407,9 @@ namespace scree
         const double step              = part_of_response * row.diagonal;
         const double available         = row.friction * (traction * row.normal);
         const double needed            = (along + slip / step).norm();
-        const double before            = row.compliance;
         row.compliance                 = needed > available ? step * (needed / available - 1.) : 0.;
-        change += row.held == HeldMotion::all ? std::pow(row.compliance - before, 2) * along.norm_square()
-                                              : slip.norm_square();
-        row.held = HeldMotion::all;
+        row.held                       = HeldMotion::all;
       }
-    return weight_of_rows * change;
   }
 
 
@@ -398,12 +441,9 @@ namespace scree
   typename PressureSolver<dim>::Result
   PressureSolver<dim>::solve(const Task &task, VertexVector &change, GroundRows<dim> *of_ground)
   {
-    constexpr unsigned int most_sweeps   = 5;   // What changes after them is held without another solve.
-    constexpr unsigned int most_releases = 3;   // Then rows are only added, so that the search ends.
-    constexpr double coarser             = 10.; // friction that changes by less has been found
-    constexpr double alone               = 0.1; // of the tolerance: rows beside a held pressure decide on creep
-    ground                               = of_ground;
-    rows                                 = ground ? &ground->all : nullptr;
+    constexpr double alone = 0.1; // of the tolerance: rows beside a held pressure decide on creep
+    ground                 = of_ground;
+    rows                   = ground ? &ground->all : nullptr;
     for (Joint *vector : { &source, &solution, &scratch })
       vector->of_rows.assign(rows ? rows->size() : 0, Tensor<1, dim>());
     take(task.pressure, solution.of_vertices);
@@ -414,43 +454,30 @@ namespace scree
       start_rows();
     set_tolerance(task.has_pressure ? task.relative_tolerance : alone * task.relative_tolerance);
     is_held.assign(system.n_owned(), !task.has_pressure);
+    least_change.clear();
+    if (task.has_pressure && std::isfinite(task.least_pressure))
+      for (unsigned int i = 0; i < is_held.size(); ++i)
+        least_change.push_back(task.least_pressure - task.pressure.local_element(numbering.vertex(i)));
+    project();
+    hold();
     Result result;
     const bool rubs = rows && Utilities::MPI::logical_or(
                                   std::any_of(rows->begin(),
                                               rows->end(),
                                               [](const auto &row) { return row.is_unilateral && row.friction > 0.; }),
                                   grid.communicator());
-    constexpr unsigned int most_passes = 2; // between pressure and friction
-    if (rubs)
+    if (rubs) // twice, with friction by what was found before
       {
+        constexpr double coarser = 3.;
+        find_residual();
+        choose_friction();
+        accepted = coarser * tolerance;
+        converge(result.first);
         find_residual();
         choose_friction();
       }
-    // What is held is searched for with coarser solves.
-    const double coarsest = rows ? 3. * tolerance : tolerance;
-    accepted              = coarsest;
-    for (unsigned int pass = 1;; ++pass)
-      {
-        for (unsigned int sweep = 0;; ++sweep)
-          {
-            converge(pass == 1 && sweep == 0 ? result.first : result.further);
-            const bool is_last = sweep == most_sweeps;
-            double found       = 0.;
-            if (rows || sweep > 0)
-              find_residual();
-            if (task.has_pressure)
-              found += choose_vertices(task, pass == 1 && !is_last);
-            if (rows && !is_last)
-              found += choose_rows(pass == 1 && sweep < most_releases);
-            found = std::sqrt(Utilities::MPI::sum(found, grid.communicator()));
-            if (is_last || (found <= tolerance && accepted == tolerance))
-              break;
-            accepted = sweep + 1 == most_sweeps ? tolerance : std::clamp(found / coarser, tolerance, coarsest);
-          }
-        if (!rubs || pass == most_passes ||
-            Utilities::MPI::sum(choose_friction(), grid.communicator()) <= std::pow(coarser * tolerance, 2))
-          break;
-      }
+    accepted = tolerance;
+    converge(rubs ? result.further : result.first);
     if (task.has_pressure)
       result.n_cavitating = std::count(is_held.begin(), is_held.end(), char(true));
     for (unsigned int i = 0; i < system.n_owned(); ++i)

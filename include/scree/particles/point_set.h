@@ -160,8 +160,8 @@ namespace scree
   class PointSet
   {
   public:
-    /// The part of a rank's points that may change cells before records are put in order in memory again.
-    static constexpr double most_moved = 0.5;
+    /// How often a rank's points change cells, on average, before records are put in order in memory again.
+    static constexpr double most_moved = 2.;
 
     /// Makes an empty set on a mesh with its mapping, which must live on.
     /// @param n_properties doubles of a point

@@ -41,13 +41,7 @@ namespace scree
                   const double time_step,
                   const std::function<double(unsigned int vertex)> &storage);
 
-    /// Takes the owned numbers that are held out of the unknown ones, like those of a drained wall. Collective.
-    void hold(const std::vector<char> &is_held);
-
-    /// Makes unknown again what hold() took out.
-    void release();
-
-    /// Whether the pressure of a local number is a degree of freedom, and not held.
+    /// Whether the pressure of a local number is a degree of freedom.
     bool is_unknown(const unsigned int number) const
     {
       return unknown[number];
@@ -106,10 +100,10 @@ namespace scree
     CellMatrix laplacian; // of the unit cell
 
     std::vector<Cell> wet_cells;
-    std::vector<char> unknown, all_unknown; // by number; the second: before hold()
-    std::vector<double> diagonal;           // what surface vertices and storage add, by owned number
-    VertexVector beside_surface;            // what the surface vertices do
-    VertexVector whole_diagonal;            // of the owned unknown numbers, m^3/(Pa s)
+    std::vector<char> unknown;    // by number
+    std::vector<double> diagonal; // what surface vertices and storage add, by owned number
+    VertexVector beside_surface;  // what the surface vertices do
+    VertexVector whole_diagonal;  // of the owned unknown numbers, m^3/(Pa s)
   };
 } // namespace scree
 

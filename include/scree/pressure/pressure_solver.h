@@ -66,7 +66,7 @@ namespace scree
     struct Result
     {
       SolveReport first;             ///< the first solve
-      SolveReport further;           ///< those with what then was found held, or slipping
+      SolveReport further;           ///< the one with the friction that was found
       unsigned int n_cavitating = 0; ///< owned vertices that are held at the least pressure
     };
 
@@ -75,9 +75,10 @@ namespace scree
     /// energy of what is pushed, under the constraints.
     ///
     /// Where the pressure would fall below the least, it is prescribed, and the mixture opens; a row whose traction
-    /// would pull lifts off; one that would be held by more than Coulomb's friction slides under that: active sets
-    /// over all of them together (@source{hintermueller2002}), each followed by conjugate gradients that start from the
-    /// last solution. Each step finds the whole pressure, so that what is left does not add up over steps.
+    /// would pull lifts off: a quadratic program with bounds, solved by preconditioned conjugate gradients with
+    /// projections and proportioning (@source{dostal2005}). Each of its steps lowers the energy. A row that would be
+    /// held by more than Coulomb's friction slides under that: a compliance along the ground, from the tractions of a
+    /// solve before. Each step finds the whole pressure, so that what is left does not add up over steps.
     ///
     /// Collective; throws if the solver does not converge.
     Result solve(const Task &task, VertexVector &change, GroundRows<dim> *rows = nullptr);
@@ -105,8 +106,33 @@ namespace scree
     /// Collective.
     void vmult(Joint &target, const Joint &source);
 
-    /// Drops what the ground leaves free of the flow at the rows.
-    void keep_held_motion(typename GroundRows<dim>::Vectors &flows) const;
+    /// Sets `to` to the preconditioner times `from`, at what is free. Collective.
+    void precondition(const Joint &from, Joint &to);
+
+    /// Drops what belongs to held vertices, and what the ground leaves free of the flow at the rows.
+    void restrict_to_free(Joint &vector) const;
+
+    /// Sets `direction` to where what is at its bound would leave it: held pressures that the flow raises, lifted rows
+    /// that it presses on. Returns the sum of squares of these flows on this rank.
+    double find_release(Joint &direction) const;
+
+    /// Frees what moves along a direction of find_release().
+    void release(const Joint &along);
+
+    /// How far `solution` can go along `direction` to its first bound on this rank.
+    double longest_step() const;
+
+    /// Puts what of `solution` is beyond its bounds on them.
+    void project();
+
+    /// Holds what of `solution` is at its bounds.
+    void hold();
+
+    /// This rank's part of x S x/2 - x b of `solution`, with its residual.
+    double energy() const;
+
+    /// On this rank.
+    static double product_of(const Joint &a, const Joint &b);
 
     /// Sets `to` to the values of the owned unknown vertices, and to 0 elsewhere.
     void take(const VertexVector &from, VertexVector &to) const;
@@ -118,9 +144,9 @@ namespace scree
       double residual; ///< m^3/s
     };
 
-    /// At most this many steps of conjugate gradients on `solution`, until the residual is below the tolerance. The
-    /// sums over all ranks are taken together, once a step (@source{chronopoulos1989}); they also tell the residual at
-    /// the step's end.
+    /// At most this many steps on `solution`, until the residual is below the accepted one: conjugate gradients in what
+    /// is free; where they leave the bounds, the whole step projected, or if that raises the energy the step to the
+    /// first bound; steps of release where what is held leaves more than what is free.
     Iterations iterate(const unsigned int most);
 
     /// Solves the system from what `solution` holds; adds to the report.
@@ -139,17 +165,8 @@ namespace scree
     /// What of the rows is held at first, from the tractions before.
     void start_rows();
 
-    /// Chooses anew which pressures are prescribed; the square of the flow by which that changed on this rank.
-    /// @param releases those that rise by themselves; else more are only added
-    double choose_vertices(const Task &task, const bool releases);
-
-    /// Chooses anew which rows press; the same.
-    /// @param releases rows that pull; else they are only added
-    double choose_rows(const bool releases);
-
-    /// Chooses the compliances of the rows along the ground anew, so that friction is what Coulomb's law allows; the
-    /// square of the flow by which that changed on this rank.
-    double choose_friction();
+    /// Chooses the compliances of the rows along the ground anew, so that friction is what Coulomb's law allows.
+    void choose_friction();
 
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &vertices;
@@ -164,11 +181,12 @@ namespace scree
     GroundRows<dim> *ground           = nullptr; // of a solve; null: none
     std::vector<GroundRow<dim>> *rows = nullptr; // its rows
     std::vector<char> is_held;                   // by owned number: at the least pressure
-    Joint source, solution, residual, scratch;
+    std::vector<double> least_change;            // by owned number, Pa; empty: the pressure has no bound
+    Joint source, solution, residual, scratch, last_solution;
     // Of iterate(): what is left of the source, that preconditioned, that times S; the step's direction, that times S.
     Joint remainder, preconditioned, product, direction, direction_product;
     double tolerance      = 0;  // of the last solve's residual, m^3/s
-    double accepted       = 0;  // of the current one's: the search for what is held begins with more
+    double accepted       = 0;  // of the current one's
     double weight_of_rows = 1.; // of the squares of flows at rows against those at vertices, in norms
 
     std::unique_ptr<PressurePreconditioner<dim>> preconditioner;
