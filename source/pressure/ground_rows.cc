@@ -9,6 +9,17 @@ namespace scree
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// The row that ends with the discharge among the 2 dim numbers of a node's flow: where it starts there, and which
+    /// of its lanes is the discharge's first.
+    template <int dim>
+    constexpr unsigned int start_of_discharge = 2 * dim - 4;
+    template <int dim>
+    constexpr unsigned int lane_of_discharge = 4 - dim;
+  } // namespace
+
+
   template <int dim>
   void GroundRows<dim>::clear()
   {
@@ -51,12 +62,15 @@ namespace scree
     for (unsigned int k = 0, first = 0; k < all.size(); ++k, first += n_nodes)
       {
         const unsigned int *nodes = grid.nodes(facets[k]->cell);
+        NodeRow on_flow{}, on_discharge{};
+        for (unsigned int c = 0; c < dim; ++c)
+          on_flow[c] = on_discharge[lane_of_discharge<dim> + c] = tractions[k][c];
         for (unsigned int i = 0; i < n_nodes; ++i)
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              forces[nodes[i]][c] -= of_flow[first + i] * tractions[k][c];
-              forces[nodes[i]][dim + c] -= of_discharge[first + i] * tractions[k][c];
-            }
+          {
+            double *force = forces[nodes[i]];
+            add_row(-of_flow[first + i] * on_flow, force);
+            add_row(-of_discharge[first + i] * on_discharge, force + start_of_discharge<dim>);
+          }
       }
   }
 
@@ -69,10 +83,15 @@ namespace scree
     for (unsigned int k = 0, first = 0; k < all.size(); ++k, first += n_nodes)
       {
         const unsigned int *nodes = grid.nodes(facets[k]->cell);
-        result[k]                 = Tensor<1, dim>();
+        NodeRow flows{}, discharges{};
         for (unsigned int i = 0; i < n_nodes; ++i)
-          for (unsigned int c = 0; c < dim; ++c)
-            result[k][c] += of_flow[first + i] * flow[nodes[i]][c] + of_discharge[first + i] * flow[nodes[i]][dim + c];
+          {
+            const double *of_node = flow[nodes[i]];
+            flows += of_flow[first + i] * load_row(of_node);
+            discharges += of_discharge[first + i] * load_row(of_node + start_of_discharge<dim>);
+          }
+        for (unsigned int c = 0; c < dim; ++c)
+          result[k][c] = flows[c] + discharges[lane_of_discharge<dim> + c];
       }
   }
 

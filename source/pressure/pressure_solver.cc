@@ -176,7 +176,7 @@ namespace scree
       is_held[i] = is_held[i] && along.of_vertices.local_element(i) == 0.;
     for (unsigned int k = 0; k < along.of_rows.size(); ++k)
       if (along.of_rows[k].norm_square() > 0.)
-        (*rows)[k].held = HeldMotion::across;
+        (*rows)[k].held = (*rows)[k].held_while_pressing;
   }
 
 
@@ -214,10 +214,7 @@ namespace scree
         is_held[i] = true;
     for (unsigned int k = 0; k < solution.of_rows.size(); ++k)
       if (GroundRow<dim> &row = (*rows)[k]; row.is_unilateral && solution.of_rows[k] * row.normal == 0.)
-        {
-          row.held       = HeldMotion::none;
-          row.compliance = 0.;
-        }
+        row.held = HeldMotion::none;
   }
 
 
@@ -408,7 +405,7 @@ namespace scree
         const double available         = row.friction * (traction * row.normal);
         const double needed            = (along + slip / step).norm();
         row.compliance                 = needed > available ? step * (needed / available - 1.) : 0.;
-        row.held                       = HeldMotion::all;
+        row.held = row.held_while_pressing = HeldMotion::all;
       }
   }
 

@@ -18,6 +18,15 @@ namespace scree
     return row;
   }
 
+  /// Adds a row to numbers that lie behind each other.
+  inline void add_row(const NodeRow &row, double *values)
+  {
+    NodeRow sum;
+    std::memcpy(&sum, values, sizeof(sum));
+    sum += row;
+    std::memcpy(values, &sum, sizeof(sum));
+  }
+
   /// Sum over the three nodes.
   inline double sum(const NodeRow &row)
   {

@@ -56,9 +56,10 @@ namespace scree
     dealii::Tensor<1, dim> normal;   ///< unit, out of the open
     dealii::Tensor<1, dim> flow;     ///< m^dim/s: area times the velocity beside what is admissible, without tractions
     dealii::Tensor<1, dim> traction; ///< on the ground, Pa; holds the initial guess before the solve
-    HeldMotion held   = HeldMotion::none; ///< in the current solve
-    double compliance = 0.;               ///< flow along the ground over the traction along it, m^dim/(Pa s); 0: sticks
-    double diagonal   = 0.; ///< of dt N A^-1 N^T, as if no walls held the nodes, m^dim/(Pa s); see set_mobilities()
+    HeldMotion held                = HeldMotion::none;   ///< in the current solve
+    HeldMotion held_while_pressing = HeldMotion::across; ///< in the current solve, of a unilateral row
+    double compliance              = 0.; ///< flow along the ground over the traction along it, m^dim/(Pa s); 0: sticks
+    double diagonal = 0.; ///< of dt N A^-1 N^T, as if no walls held the nodes, m^dim/(Pa s); see set_mobilities()
 
     /// The part of a vector that the ground holds.
     dealii::Tensor<1, dim> held_part(const dealii::Tensor<1, dim> &vector) const

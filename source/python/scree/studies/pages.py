@@ -36,7 +36,7 @@ TOPICS = {
     "waves_and_convergence": Topic("Waves and convergence", ("bar", "manufactured", "pic_courant")),
     "soil_models": Topic("Soil models and quality of the stress", ("contours", "nor_sand_density", "low_stress", "shear_bands")),
     "experiments": Topic("Experiments", ("aluminium_bars", "martin_moyce")),
-    "cost": Topic("Cost", ("advice", "scaling", "peers")),
+    "cost": Topic("Cost", ("advice", "size", "scaling", "peers")),
 }
 
 
