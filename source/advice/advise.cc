@@ -280,7 +280,7 @@ namespace scree
       std::map<TimerSection, double> times_of_parts() const
       {
         std::map<TimerSection, double> seconds;
-        for (const TimerSection part : step_parts)
+        for (const TimerSection part : step_parts())
           if (const double of_part = scree::seconds_of(simulation.times_of_parts(), part); of_part > 0.)
             seconds[part] = of_part;
         return seconds;
@@ -466,7 +466,7 @@ namespace scree
         writer.line(name, rounded(to_ns * first) + "; " + rounded(to_ns * later) + " ns a point");
       };
       of_steps("a step at the start; later", seen.first.seconds, seen.later.seconds);
-      for (const TimerSection part : step_parts)
+      for (const TimerSection part : step_parts())
         if (seen.first.seconds_of(part) >= 0.02 * seen.first.seconds ||
             seen.later.seconds_of(part) >= 0.02 * seen.later.seconds)
           of_steps("  " + name_of(part), seen.first.seconds_of(part), seen.later.seconds_of(part));

@@ -5,23 +5,36 @@ namespace scree
 {
   using namespace dealii;
 
+  namespace
+  {
+    const char *const names[] = { "non-local strain",
+                                  "points to grid",
+                                  "nodes",
+                                  "contact with the bed",
+                                  "contact between bodies",
+                                  "pressure: system",
+                                  "pressure: solve",
+                                  "grid to points, stress",
+                                  "grid to water points",
+                                  "sort into cells and ranks",
+                                  "waiting for other ranks",
+                                  "repartition",
+                                  "output" };
+  } // namespace
+
+
   std::string name_of(const TimerSection part)
   {
-    static const char *const names[] = { "non-local strain",
-                                         "points to grid",
-                                         "nodes",
-                                         "contact with the bed",
-                                         "contact between bodies",
-                                         "pressure: system",
-                                         "pressure: solve",
-                                         "grid to points, stress",
-                                         "grid to water points",
-                                         "sort into cells and ranks",
-                                         "waiting for other ranks",
-                                         "repartition",
-                                         "output" };
-    static_assert(std::size(names) == step_parts.size());
     return names[static_cast<unsigned int>(part)];
+  }
+
+
+  std::vector<TimerSection> step_parts()
+  {
+    std::vector<TimerSection> parts;
+    for (unsigned int part = 0; part < std::size(names); ++part)
+      parts.push_back(static_cast<TimerSection>(part));
+    return parts;
   }
 
 

@@ -74,9 +74,6 @@ namespace scree
     motion
   };
 
-  /// Steps by what bounds them.
-  using StepCounts = std::array<unsigned long long, 3>;
-
   /// The clock of a run: steps that are stable and meet the output times exactly.
   class TimeStepper
   {
@@ -87,26 +84,23 @@ namespace scree
     {
     }
 
-    /// Largest step, s: Courant number times cell size over (wave speed + speed), advection number times cell size over
-    /// speed, and at most the maximum.
+    /// What bounds a step, by StepLimit, s: the maximum, Courant number times cell size over (wave speed + speed), and
+    /// advection number times cell size over speed.
+    std::array<double, 3> bounds(const double cell_size, const double wave_speed, const double speed) const
+    {
+      const auto over = [](const double length, const double velocity) {
+        return velocity > 0 ? length / velocity : std::numeric_limits<double>::infinity();
+      };
+      return { { parameters.maximum_time_step,
+                 over(parameters.courant_number * cell_size, wave_speed / std::sqrt(parameters.mass_scaling) + speed),
+                 over(parameters.advection_number * cell_size, speed) } };
+    }
+
+    /// Largest step, s.
     double stable_step(const double cell_size, const double wave_speed, const double speed) const
     {
       const auto all = bounds(cell_size, wave_speed, speed);
       return *std::min_element(all.begin(), all.end());
-    }
-
-    /// What makes it that large.
-    StepLimit limit(const double cell_size, const double wave_speed, const double speed) const
-    {
-      const auto all = bounds(cell_size, wave_speed, speed);
-      return static_cast<StepLimit>(std::min_element(all.begin(), all.end()) - all.begin());
-    }
-
-    /// The part of the step that waves and motion alone would allow which the maximum leaves.
-    double part_left(const double cell_size, const double wave_speed, const double speed) const
-    {
-      const auto all = bounds(cell_size, wave_speed, speed);
-      return std::min(1., all[0] / std::min(all[1], all[2]));
     }
 
     /// The step, s, from now on: at most the stable one, and shortened so that equal steps end at `due`.
@@ -149,17 +143,6 @@ namespace scree
     }
 
   private:
-    /// The bounds by StepLimit, s.
-    std::array<double, 3> bounds(const double cell_size, const double wave_speed, const double speed) const
-    {
-      const auto over = [](const double length, const double velocity) {
-        return velocity > 0 ? length / velocity : std::numeric_limits<double>::infinity();
-      };
-      return { { parameters.maximum_time_step,
-                 over(parameters.courant_number * cell_size, wave_speed / std::sqrt(parameters.mass_scaling) + speed),
-                 over(parameters.advection_number * cell_size, speed) } };
-    }
-
     const TimeStepParameters parameters;
     double current_time        = 0;
     unsigned long long n_steps = 0;

@@ -27,23 +27,11 @@ namespace scree
     output
   };
 
-  /// All of them, in the order in which they are reported.
-  constexpr std::array<TimerSection, 13> step_parts{ { TimerSection::nonlocal,
-                                                       TimerSection::points_to_grid,
-                                                       TimerSection::nodes,
-                                                       TimerSection::bed,
-                                                       TimerSection::contacts,
-                                                       TimerSection::pressure_system,
-                                                       TimerSection::pressure_solve,
-                                                       TimerSection::stress,
-                                                       TimerSection::water_points,
-                                                       TimerSection::sort,
-                                                       TimerSection::waiting,
-                                                       TimerSection::repartition,
-                                                       TimerSection::output } };
-
   /// What the user reads.
   std::string name_of(const TimerSection part);
+
+  /// All parts, in the order in which they are reported.
+  std::vector<TimerSection> step_parts();
 
   /// Adds the time from its construction to its end to a part.
   class TimedPart
