@@ -191,8 +191,7 @@ namespace scree
         double smallest = std::numeric_limits<double>::infinity();
         for (const BodyParameters &body : parameters.bodies)
           if (const double porosity = body.initial_porosity(); porosity > 0 && !body.is_rigid())
-            smallest = std::min(smallest,
-                                DragLaw(body.seepage.in_place_of(parameters.water), porosity).conductivity(porosity));
+            smallest = std::min(smallest, body.drag_law(parameters.water).conductivity(porosity));
         return std::isfinite(smallest) ? smallest : parameters.water.conductivity;
       }
 

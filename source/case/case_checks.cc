@@ -289,7 +289,7 @@ namespace scree
       constexpr char conductivity_unit[] = "m/s (1 m/d = 1.16e-5 m/s)";
       const WaterParameters &water       = parameters.water;
       for (const BodyParameters &body : parameters.bodies)
-        ask(body.name, "Hydraulic conductivity", body.seepage.conductivity, 1e-13, 1., conductivity_unit);
+        ask(body.name, "Hydraulic conductivity", body.conductivity, 1e-13, 1., conductivity_unit);
       ask("Water", "Density", water.density, 500., 2e3, "kg/m^3 (1 g/cm^3 = 1e3 kg/m^3)");
       ask("Water", "Hydraulic conductivity", water.conductivity, 1e-13, 1., conductivity_unit);
       ask("Water", "Grain diameter", water.grain_diameter, 1e-7, 3., "m (1 mm = 1e-3 m)");

@@ -112,7 +112,9 @@ namespace scree
   void BodyParameters::check(const std::vector<double> &gravity, const WaterParameters *water) const
   {
     seeding.check(name, gravity.size());
-    seepage.check(name, water);
+    require_entry(water != nullptr || conductivity == 0,
+                  { name, "Hydraulic conductivity", conductivity },
+                  "this entry has no effect, as the file has no subsection Water. Add one, or remove the entry.");
     material.check(name);
     initial_state.check(name, gravity);
     if (is_rigid())
@@ -214,7 +216,7 @@ namespace scree
         map_system = system_of_maps(*this);
         read_maps();
         if (has_water)
-          water.seepage_start.check_heads(grid.lower_corner, grid.upper_corner);
+          water.check_wall_heads(grid.lower_corner, grid.upper_corner);
         water.find_fringe(size_of_gravity());
         if (safety.strength_factor != 1. && settling.maximum_time == 0.) // or else it acts at the release
           reduce_strength(safety.strength_factor);
@@ -551,7 +553,7 @@ namespace scree
     bool has_strength = false;
     for (BodyParameters &body : bodies)
       {
-        if (body.initial_state.stress_kind() == InitialStress::k0)
+        if (body.initial_state.is_k0())
           body.initial_state.k0 = exact_text({ body.k0() }); // of the soil as it is
         has_strength = body.material.divide_strength(factor) || has_strength;
         body.material.check(body.name); // The law must be possible with that strength, too.

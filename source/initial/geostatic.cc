@@ -199,7 +199,7 @@ namespace scree
     std::vector<typename Overburden<dim>::Layer> layers;
     for (const SoilRegion &body : soil)
       layers.emplace_back(body.template places<dim>(), body.bulk_density);
-    if (!water || water->initial_pressure_kind() != InitialPressure::hydrostatic)
+    if (!water || !water->starts_hydrostatic())
       return layers;
     const bool has_fringe = water->fringe > 0.;
     for (auto &part : water_parts<dim>(water->without_fringe(), soil))
@@ -239,7 +239,7 @@ namespace scree
     template <int dim>
     SuctionAbove<dim> suction_above_table(const WaterParameters &water, const Tensor<1, dim> &gravity)
     {
-      if (water.fringe == 0. || water.initial_pressure_kind() == InitialPressure::none)
+      if (water.fringe == 0. || !water.starts_hydrostatic())
         return {};
       const auto [entry, elevation] = water.place();
       const std::shared_ptr<const Expression<dim>> table =

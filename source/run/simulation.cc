@@ -60,8 +60,8 @@ namespace scree
     scene.require_steps(stable_step(), speeds);
     folder.remove_old_results(); // not before the input has proved good
     record_case(parameters, folder);
-    log_case(parameters, scene, folder, communicator);
-    log_released(parameters, scene, folder, communicator);
+    log_case(scene, folder);
+    log_released(scene, folder);
     for (const std::string &remark : remarks_on(parameters, scene.bodies, communicator))
       folder.log(remark);
     if (parameters.settling.maximum_time > 0)
@@ -93,7 +93,7 @@ namespace scree
     points_at_edge = are_points_at_edge() || points_at_edge;
     output_times.begin(clock.time());
     record_case(parameters, folder);
-    log_case(parameters, scene, folder, communicator);
+    log_case(scene, folder);
     results.cut();
     folder.log("Resumed at t = " + number_text(clock.time()) + " s, step " + std::to_string(clock.step()) + ", from " +
                checkpoint.folder + " of " + checkpoint.manifest.program + '.');
@@ -276,8 +276,7 @@ namespace scree
                     number_text(Utilities::MPI::sum(double(scene.grid.fine_cells().n_owned()), communicator)) +
                     "; they followed the points " + std::to_string(n_refinements) + " times, which took " +
                     number_text(seconds_of(timer, TimerSection::repartition)) + " s");
-    log_balance(scene, totals, folder, communicator);
-    log_peak_memory(folder, communicator);
+    log_end(scene, totals, folder);
     results.complete();
   }
 

@@ -2,7 +2,7 @@
 #ifndef scree_initial_geostatic_h
 #define scree_initial_geostatic_h
 
-#include <scree/bodies/water_phase.h>
+#include <scree/bodies/phases.h>
 #include <scree/initial/steady_seepage.h>
 
 namespace scree

@@ -27,11 +27,35 @@ namespace scree
     output
   };
 
+  /// Their names in the log.
+  constexpr const char *names_of_parts[] = { "non-local strain",
+                                             "points to grid",
+                                             "nodes",
+                                             "contact with the bed",
+                                             "contact between bodies",
+                                             "pressure: system",
+                                             "pressure: solve",
+                                             "grid to points, stress",
+                                             "grid to water points",
+                                             "sort into cells and ranks",
+                                             "waiting for other ranks",
+                                             "repartition",
+                                             "output" };
+
   /// What the user reads.
-  std::string name_of(const TimerSection part);
+  inline std::string name_of(const TimerSection part)
+  {
+    return names_of_parts[static_cast<unsigned int>(part)];
+  }
 
   /// All parts, in the order in which they are reported.
-  std::vector<TimerSection> step_parts();
+  inline std::vector<TimerSection> step_parts()
+  {
+    std::vector<TimerSection> parts;
+    for (unsigned int part = 0; part < std::size(names_of_parts); ++part)
+      parts.push_back(static_cast<TimerSection>(part));
+    return parts;
+  }
 
   /// Adds the time from its construction to its end to a part.
   class TimedPart
@@ -48,7 +72,12 @@ namespace scree
   };
 
   /// Wall time of a part on this rank since the timer's reset, s.
-  double seconds_of(const dealii::TimerOutput &timer, const TimerSection part);
+  inline double seconds_of(const dealii::TimerOutput &timer, const TimerSection part)
+  {
+    const auto seconds = timer.get_summary_data(dealii::TimerOutput::total_wall_time);
+    const auto found   = seconds.find(name_of(part));
+    return found == seconds.end() ? 0. : found->second;
+  }
 
   /// Speeds that limit the next step.
   struct Speeds
