@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/advice/scene_numbers.h>
+#include <scree/advice/advise.h>
 #include <scree/tensor/invariants.h>
 
 #include <iterator>

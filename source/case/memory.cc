@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/case/memory.h>
+#include <scree/case/case_checks.h>
 #include <scree/io/progress.h>
 #include <scree/seeding/seeding.h>
 

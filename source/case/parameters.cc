@@ -539,10 +539,8 @@ namespace scree
                       { body.name, "Saturated unit weight", seeding.saturated_unit_weight },
                       "the scene is dry, and the soil would weigh less than this. Write \"Dry unit weight\" (in total "
                       "stress the same value), or add subsection Water.");
-        handler.enter_subsection(body.name);
-        handler.set("Grain density", exact_text({ result.grain_density }));
-        handler.set("Initial porosity", exact_text({ result.porosity }));
-        handler.leave_subsection();
+        set(body.name, "Grain density", exact_text({ result.grain_density }));
+        set(body.name, "Initial porosity", exact_text({ result.porosity }));
       }
   }
 

@@ -9,45 +9,26 @@ namespace scree
 
   namespace
   {
-    /// The column of the progress table that says where a scene is: the front of the soil, or of the water without
-    /// soil; on a bed in space, where no axis is that of the motion, the largest speed.
+    /// Heading of the column of the progress table that says where a scene is, and its value now: the front of the
+    /// soil, or of the water without soil; on a bed in space, where no axis is that of the motion, the largest speed.
+    /// Collective.
     template <int dim>
-    class ShownMotion
+    std::pair<std::string, double> shown_motion(const Scene<dim> &scene)
     {
-    public:
-      /// The scene is kept by reference.
-      explicit ShownMotion(const Scene<dim> &scene)
-          : scene(scene)
-          , shows_speed(dim == 3 && scene.bed)
-      {
-      }
-
-      /// Heading of the column, with the unit.
-      std::string heading() const
-      {
-        return shows_speed ? "fastest (m/s)" : scene.bodies.empty() ? "water front 90 % (m)" : "front 90 % (m)";
-      }
-
-      /// Value of the column. Collective.
-      double value() const
-      {
-        constexpr double part_behind_front = 0.90; // of the mass
-        if (!shows_speed)
-          return scene.bodies.empty() ? mass_percentiles(scene.water, scene.grid, { part_behind_front })[0]
-                                      : mass_percentiles(scene.bodies, scene.grid, { part_behind_front })[0];
-        double largest  = 0.;
-        const auto look = [&](const auto &phase, const auto &point) {
-          largest = std::max(largest, vector_of<dim>(point.properties + phase.layout.velocity).norm());
-        };
-        for_each_moving_point(scene.bodies, look);
-        for_each_moving_point(scene.water, look);
-        return Utilities::MPI::max(largest, scene.grid.communicator());
-      }
-
-    private:
-      const Scene<dim> &scene;
-      const bool shows_speed; // or a front
-    };
+      const std::vector<double> part_behind_front{ 0.90 }; // of the mass
+      if (dim == 2 || !scene.bed)
+        return scene.bodies.empty()
+                   ? std::make_pair("water front 90 % (m)",
+                                    mass_percentiles(scene.water, scene.grid, part_behind_front)[0])
+                   : std::make_pair("front 90 % (m)", mass_percentiles(scene.bodies, scene.grid, part_behind_front)[0]);
+      double largest  = 0.;
+      const auto look = [&](const auto &phase, const auto &point) {
+        largest = std::max(largest, vector_of<dim>(point.properties + phase.layout.velocity).norm());
+      };
+      for_each_moving_point(scene.bodies, look);
+      for_each_moving_point(scene.water, look);
+      return { "fastest (m/s)", Utilities::MPI::max(largest, scene.grid.communicator()) };
+    }
   } // namespace
 
 
@@ -107,8 +88,7 @@ namespace scree
   {
     timer.reset(); // Only the steps' time is reported.
     stop.listen();
-    const ShownMotion<dim> motion(scene);
-    progress = std::make_unique<Progress>(folder, clock.time(), parameters.end_time, motion.heading());
+    progress = std::make_unique<Progress>(folder, clock.time(), parameters.end_time, shown_motion(scene).first);
     if (start == Start::fresh && is_released) // A resumed run has reported its first state, also that at t = 0.
       report();
     const double updates_before = point_updates;
@@ -127,7 +107,7 @@ namespace scree
                   clock.time(),
                   clock.step(),
                   last_time_step,
-                  motion.value(),
+                  shown_motion(scene).second,
                   PointSums<dim>(scene.bodies, scene.water, scene.forcing.gravity(), communicator).kinetic);
           }
       }
@@ -518,13 +498,10 @@ namespace scree
     }
 
 
-    /// What this part of the mass exceeds, within 1 %. Collective.
+    /// What the part of the mass that moves exceeds, within 1 %. Collective.
     /// @param value of a body and a point, not negative
     template <int dim, typename Value>
-    double exceeded_by(const double part,
-                       const std::list<SoilBody<dim>> &bodies,
-                       const Value &value,
-                       const MPI_Comm communicator)
+    double exceeded_by(const std::list<SoilBody<dim>> &bodies, const Value &value, const MPI_Comm communicator)
     {
       constexpr unsigned int n_bins = 1500;
       constexpr double bins_per_e   = 100.;
@@ -532,7 +509,7 @@ namespace scree
       for_each_moving_point(
           bodies, [&](const auto &body, const auto &point) { largest = std::max(largest, value(body, point)); });
       largest = Utilities::MPI::max(largest, communicator);
-      if (largest == 0. || part == 0.)
+      if (largest == 0.)
         return largest;
 
       std::vector<double> masses(n_bins, 0.); // from the largest value down
@@ -545,7 +522,7 @@ namespace scree
       for (const double mass : masses)
         all += mass;
       unsigned int bin = 0;
-      for (double above = masses[0]; bin + 1 < n_bins && above <= part * all;)
+      for (double above = masses[0]; bin + 1 < n_bins && above <= part_that_moves * all;)
         above += masses[++bin];
       return largest * std::exp(-(bin + 0.5) / bins_per_e);
     }
@@ -594,8 +571,9 @@ namespace scree
                                      const unsigned int steps_between_looks,
                                      const std::function<bool(const TimeStepper &, double)> &is_over)
   {
-    TimeStepper until_rest(
-        parameters.time_step.with_held_pressure(scene.forcing.gravity().norm(), scene.grid.cell_size()));
+    TimeStepParameters held_water = parameters.time_step; // An auto maximum is that of dry soil.
+    held_water.choose_maximum(/* has_water */ false, scene.forcing.gravity().norm(), scene.grid.cell_size());
+    TimeStepper until_rest(held_water);
     stop.listen();
     is_released = false;
     scene.mark_start();
@@ -702,7 +680,6 @@ namespace scree
   double Simulation<dim>::displacement() const
   {
     return exceeded_by(
-        part_that_moves,
         scene.bodies,
         [](const auto &body, const auto &point) {
           return (Tensor<1, dim>(point.location) - vector_of<dim>(point.properties + body.layout.start)).norm();
@@ -728,7 +705,6 @@ namespace scree
     const auto has_ended = [&](const TimeStepper &until_rest, const double) {
       trial.displacement = displacement();
       const double speed = exceeded_by(
-          part_that_moves,
           scene.bodies,
           [](const auto &body, const auto &point) {
             return vector_of<dim>(point.properties + body.layout.velocity).norm();

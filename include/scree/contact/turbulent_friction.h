@@ -5,7 +5,7 @@
 #include <scree/bodies/phases.h>
 #include <scree/mesh/discrete_level_set.h>
 #include <scree/mesh/node_values.h>
-#include <scree/step/budget.h>
+#include <scree/step/step_report.h>
 
 #include <list>
 

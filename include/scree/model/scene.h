@@ -2,7 +2,7 @@
 #ifndef scree_model_scene_h
 #define scree_model_scene_h
 
-#include <scree/case/memory.h>
+#include <scree/case/case_checks.h>
 #include <scree/initial/steady_seepage.h>
 #include <scree/postprocess/statistics.h>
 #include <scree/schemes/explicit_scheme.h>

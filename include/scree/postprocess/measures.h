@@ -4,7 +4,7 @@
 
 #include <scree/bodies/phases.h>
 #include <scree/mesh/discrete_level_set.h>
-#include <scree/step/budget.h>
+#include <scree/step/step_report.h>
 
 #include <list>
 

@@ -83,15 +83,7 @@ namespace scree
       choose_maximum(has_water, gravity, cell_size);
     }
 
-    /// The parameters while the pore pressure is held: an `auto` maximum is that of dry soil.
-    TimeStepParameters with_held_pressure(const double gravity, const double cell_size) const
-    {
-      TimeStepParameters held = *this;
-      held.choose_maximum(/* has_water */ false, gravity, cell_size);
-      return held;
-    }
-
-  private:
+    /// The same for the maximum alone.
     void choose_maximum(const bool has_water, const double gravity, const double cell_size)
     {
       constexpr double part_of_cell = 0.1, wet_part_of_cell = 2.5e-4, of_wet_soil = 1e-2;

@@ -5,7 +5,6 @@
 #include "../test.h"
 
 #include <scree/advice/advise.h>
-#include <scree/advice/scene_numbers.h>
 
 namespace test_advice_groups
 {

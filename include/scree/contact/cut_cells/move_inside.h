@@ -6,7 +6,7 @@
 #include <scree/mesh/background_grid.h>
 #include <scree/mesh/discrete_level_set.h>
 #include <scree/particles/point_set.h>
-#include <scree/step/budget.h>
+#include <scree/step/step_report.h>
 
 namespace scree
 {
