@@ -258,59 +258,38 @@ namespace scree
   template decltype(survey<3>) survey<3>;
 
 
-  Regime regime_of(const SceneNumbers &scene)
+  RegimeChoice regime_choice(const SceneNumbers &scene)
   {
     if (!scene.has_water)
-      return Regime::dry;
+      return { Regime::dry, "dry", "the case has no water" };
     if (!scene.has_soil)
-      return Regime::free_water;
-    const Groups groups = groups_of(scene);
-    // Water outside, and that of soil that flows, moves on its own.
-    if (groups.drainage < thresholds::drained_below && scene.is_elastic && scene.water_fills_soil)
-      return Regime::drained;
-    if (groups.drainage > thresholds::undrained_above && groups.time_factor < thresholds::consolidates_above)
-      return Regime::undrained;
-    return Regime::coupled;
-  }
-
-
-  std::string name_of(const Regime regime)
-  {
-    static const std::map<Regime, std::string> names{ { Regime::dry, "dry" },
-                                                      { Regime::free_water, "water alone" },
-                                                      { Regime::drained, "drained" },
-                                                      { Regime::undrained, "undrained" },
-                                                      { Regime::coupled, "coupled" } };
-    return names.at(regime);
-  }
-
-
-  std::string reason_for(const Regime regime, const SceneNumbers &scene)
-  {
-    const Groups groups     = groups_of(scene);
-    const std::string ratio = "drainage time over motion time is " + short_text(groups.drainage);
-    switch (regime)
-      {
-      case Regime::dry:
-        return "the case has no water";
-      case Regime::free_water:
-        return "the case has no soil that moves";
-      case Regime::drained:
-        return ratio + ", below " + short_text(thresholds::drained_below) +
-               ": soil alone serves, of the saturated density and under water with its buoyant weight";
-      case Regime::undrained:
-        return ratio + ", above " + short_text(thresholds::undrained_above) + ", and T_v at the end " +
-               short_text(groups.time_factor) + ", below " + short_text(thresholds::consolidates_above) +
-               ": water hardly moves through the soil";
-      default:
-        if (groups.drainage > thresholds::undrained_above)
-          return ratio + ", above " + short_text(thresholds::undrained_above) + ", but T_v at the end is " +
-                 short_text(groups.time_factor) + ": pressure leaves during the run";
-        if (groups.drainage < thresholds::drained_below)
-          return ratio + ", below " + short_text(thresholds::drained_below) + ", but its water must move, too";
-        return ratio + ", between " + short_text(thresholds::drained_below) + " and " +
-               short_text(thresholds::undrained_above);
-      }
+      return { Regime::free_water, "water alone", "the case has no soil that moves" };
+    const Groups groups         = groups_of(scene);
+    const std::string ratio     = "drainage time over motion time is " + short_text(groups.drainage);
+    const std::string drained   = short_text(thresholds::drained_below);
+    const std::string undrained = short_text(thresholds::undrained_above);
+    if (groups.drainage < thresholds::drained_below)
+      // Water outside, and that of soil that flows, moves on its own.
+      return scene.is_elastic && scene.water_fills_soil
+                 ? RegimeChoice{ Regime::drained,
+                                 "drained",
+                                 ratio + ", below " + drained +
+                                     ": soil alone serves, of the saturated density and under water with its buoyant "
+                                     "weight" }
+                 : RegimeChoice{ Regime::coupled,
+                                 "coupled",
+                                 ratio + ", below " + drained + ", but its water must move, too" };
+    if (!(groups.drainage > thresholds::undrained_above))
+      return { Regime::coupled, "coupled", ratio + ", between " + drained + " and " + undrained };
+    if (groups.time_factor < thresholds::consolidates_above)
+      return { Regime::undrained,
+               "undrained",
+               ratio + ", above " + undrained + ", and T_v at the end " + short_text(groups.time_factor) + ", below " +
+                   short_text(thresholds::consolidates_above) + ": water hardly moves through the soil" };
+    return { Regime::coupled,
+             "coupled",
+             ratio + ", above " + undrained + ", but T_v at the end is " + short_text(groups.time_factor) +
+                 ": pressure leaves during the run" };
   }
 
 

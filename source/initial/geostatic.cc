@@ -13,10 +13,10 @@ namespace scree
                               const Tensor<1, dim> &gravity,
                               const double spacing)
       : grid(grid)
+      , axis(0)
       , layers(std::move(layers))
       , gravity(gravity.norm())
       , spacing(spacing)
-      , axis(0)
   {
     for (unsigned int a = 1; a < dim; ++a)
       if (std::abs(gravity[a]) > std::abs(gravity[axis]))
@@ -163,10 +163,10 @@ namespace scree
     set_stress(body,
                entry_name(body.name + "/Initial state", "K0") + " = " + number_text(k0),
                modulus,
-               overburden.communicator(),
+               overburden.grid.communicator(),
                [&](const Point<dim> &x, double *stress) {
                  const double vertical = overburden.weight_above(x) + (suction ? suction(x) : 0.);
-                 set_k0_components(vertical, k0, overburden.vertical_axis(), stress);
+                 set_k0_components(vertical, k0, overburden.axis, stress);
                });
   }
 
@@ -307,12 +307,12 @@ namespace scree
   {
     const Tensor<1, dim> weight = water.density * water_overburden.gravity_vector();
     const auto &layout          = water.layout;
-    on_all_ranks(water_overburden.communicator(), [&] {
+    on_all_ranks(water_overburden.grid.communicator(), [&] {
       for_each_point(water.points(), [&](const auto &point) {
         const double pressure             = water_overburden.weight_above(point.location);
         point.properties[layout.pressure] = pressure;
         Tensor<1, dim> gradient           = weight;
-        const unsigned int vertical       = water_overburden.vertical_axis();
+        const unsigned int vertical       = water_overburden.axis;
         const double pull                 = suction ? suction(point.location) : 0.;
         if (reach > 0 && pull == 0.)
           gradient += horizontal_gradient<dim>([&](const Point<dim> &x) { return water_overburden.weight_above(x); },

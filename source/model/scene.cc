@@ -347,8 +347,7 @@ namespace scree
     Blocks blocks;
     const auto append = [&](const PointSet<dim> &points, const unsigned int velocity) {
       for_each_point(points, [&](const auto &point) {
-        const double *v           = point.properties + velocity;
-        const Tensor<1, dim> path = time * Tensor<1, dim>(make_array_view(v, v + dim));
+        const Tensor<1, dim> path = time * vector_of<dim>(point.properties + velocity);
         if (ground)
           append_way(point.location, path, *ground, grid, blocks);
         else
@@ -806,9 +805,7 @@ namespace scree
   Speeds Scene<dim>::speeds() const
   {
     Speeds largest;
-    const auto include_point = [&](const double *velocity) {
-      largest.include_point(Tensor<1, dim>(make_array_view(velocity, velocity + dim)).norm());
-    };
+    const auto include_point = [&](const double *velocity) { largest.include_point(vector_of<dim>(velocity).norm()); };
     for (const auto &body : bodies)
       for_each_point(body.points, [&](const auto &point) {
         const double *stress            = point.properties + body.layout.stress;

@@ -59,14 +59,6 @@ namespace scree
       return kilobytes;
     }
 
-    /// On all ranks.
-    template <int dim>
-    unsigned long long count(const PointSet<dim> &points, const MPI_Comm communicator)
-    {
-      const unsigned long long n = points.n_points();
-      return Utilities::MPI::sum(n, communicator);
-    }
-
     /// "1 rank", "2 ranks"
     std::string counted(const unsigned long long n, const std::string &what)
     {
@@ -88,21 +80,19 @@ namespace scree
 
     /// ", 38480 soil points, 1200 water points"; of several bodies also each one's.
     template <int dim>
-    std::string points_text(const std::list<SoilBody<dim>> &bodies,
-                            const std::list<WaterPhase<dim>> &water,
-                            const MPI_Comm communicator)
+    std::string points_text(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water)
     {
       std::string of_each;
       unsigned long long n_soil = 0, n_water = 0;
       for (const auto &body : bodies)
         {
-          const unsigned long long n = count(body.points, communicator);
+          const unsigned long long n = body.points.handler().n_global_particles();
           of_each += (of_each.empty() ? " (" : ", ") + body.name + ' ' + std::to_string(n);
           n_soil += n;
         }
       for (const auto &part : water)
         if (part.carrier() == nullptr)
-          n_water += count(part.points(), communicator);
+          n_water += part.points().handler().n_global_particles();
       return (bodies.empty() ? "" : ", " + counted(n_soil, "soil point")) + (bodies.size() > 1 ? of_each + ')' : "") +
              (n_water > 0 ? ", " + counted(n_water, "water point") : "");
     }
@@ -134,7 +124,7 @@ namespace scree
       const double expected_bytes  = scene.expected_memory.bytes(Utilities::MPI::n_mpi_processes(communicator));
       folder.log(header_line(communicator));
       folder.log("Case        " + parameters.case_file + " -> " + parameters.output_directory);
-      folder.log("Model       " + model_text(parameters) + points_text(scene.bodies, scene.water, communicator));
+      folder.log("Model       " + model_text(parameters) + points_text(scene.bodies, scene.water));
       const double n_cells = Utilities::MPI::sum(double(grid.fine_cells().n_owned()), communicator);
       const double n_all   = grid.n_cells_of_box();
       folder.log("Mesh        " + number_text(n_cells) + " cells of " + number_text(grid.cell_size()) + " m" +

@@ -2,7 +2,6 @@
 #ifndef scree_advice_advise_h
 #define scree_advice_advise_h
 
-
 #include <scree/run/simulation.h>
 
 #include <ostream>
@@ -142,14 +141,22 @@ namespace scree
     constexpr double consolidates_above = 4. / undrained_above;
   } // namespace thresholds
 
+  /// A regime, and why.
+  struct RegimeChoice
+  {
+    Regime regime;    ///< model that the scene needs
+    std::string name, ///< as the report writes it
+        reason;       ///< the numbers behind it, as a sentence
+  };
+
   /// Finds the simplest model that is within 5 % in this scene, by the thresholds.
-  Regime regime_of(const SceneNumbers &scene);
+  RegimeChoice regime_choice(const SceneNumbers &scene);
 
-  /// Name of a regime as the report writes it.
-  std::string name_of(const Regime regime);
-
-  /// The numbers behind regime_of(), as a sentence.
-  std::string reason_for(const Regime regime, const SceneNumbers &scene);
+  /// Its regime alone.
+  inline Regime regime_of(const SceneNumbers &scene)
+  {
+    return regime_choice(scene).regime;
+  }
 
   /// Whose points should carry the water, and why.
   struct PointSetChoice

@@ -117,53 +117,6 @@ namespace scree
       }
   }
 
-  template <int dim>
-  class CellTable;
-
-  /// A cell of the mesh as its points need it.
-  template <int dim>
-  struct TableCell
-  {
-    using Iterator = typename dealii::Triangulation<dim>::active_cell_iterator; ///< iterator over the cells of the mesh
-
-    /// Reads a cell of the mesh; its neighbours are not known yet.
-    explicit TableCell(const Iterator &iterator)
-        : iterator(iterator)
-        , index(iterator->active_cell_index())
-        , corner(iterator->vertex(0))
-    {
-      neighbours.fill(CellTable<dim>::none - 1);
-      // The mesh's first vertex is the lower corner of the box.
-      const dealii::Point<dim> lower = iterator->get_triangulation().get_vertices()[0];
-      CellPlace<dim> place;
-      for (unsigned int a = 0; a < dim; ++a)
-        {
-          width[a] = iterator->vertex(1 << a)[a] - corner[a];
-          place[a] = static_cast<int>(std::lround((corner[a] - lower[a]) / width[a]));
-        }
-      number = curve_number<dim>(place);
-    }
-
-    /// Place of `x` in the cell, as by deal.II's MappingCartesian, to the last digit.
-    ///
-    /// @param x location, m: a Point, or an array of `dim` batches
-    template <typename Number, typename Location>
-    std::array<Number, dim> place_of(const Location &x) const
-    {
-      std::array<Number, dim> place;
-      for (unsigned int a = 0; a < dim; ++a)
-        place[a] = (x[a] - corner[a]) / width[a];
-      return place;
-    }
-
-    Iterator iterator;                            ///< the cell in the mesh
-    unsigned int index;                           ///< active cell index
-    std::uint64_t number;                         ///< of its place on the curve through the mesh
-    dealii::Point<dim> corner;                    ///< lower corner, m
-    dealii::Tensor<1, dim> width;                 ///< m
-    std::array<unsigned int, 2 * dim> neighbours; ///< their numbers in the table, face by face, as far as known
-  };
-
   /// The cells that a set of points has met: the walk over their faces is done once for each.
   ///
   /// Cells belong to one mesh: clear() removes them.
@@ -171,9 +124,51 @@ namespace scree
   class CellTable
   {
   public:
-    using Iterator = typename TableCell<dim>::Iterator; ///< iterator over the cells of the mesh
+    using Iterator = typename dealii::Triangulation<dim>::active_cell_iterator; ///< iterator over the cells of the mesh
 
-    static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int; ///< stands for no cell
+    static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int, ///< stands for no cell
+        unknown                        = none - 1;                              ///< for one that was not asked for yet
+
+    /// A cell of the mesh as its points need it.
+    struct Cell
+    {
+      /// Reads a cell of the mesh; its neighbours are not known yet.
+      explicit Cell(const Iterator &iterator)
+          : iterator(iterator)
+          , index(iterator->active_cell_index())
+          , corner(iterator->vertex(0))
+      {
+        neighbours.fill(unknown);
+        // The mesh's first vertex is the lower corner of the box.
+        const dealii::Point<dim> lower = iterator->get_triangulation().get_vertices()[0];
+        CellPlace<dim> place;
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            width[a] = iterator->vertex(1 << a)[a] - corner[a];
+            place[a] = static_cast<int>(std::lround((corner[a] - lower[a]) / width[a]));
+          }
+        number = curve_number<dim>(place);
+      }
+
+      /// Place of `x` in the cell, as by deal.II's MappingCartesian, to the last digit.
+      ///
+      /// @param x location, m: a Point, or an array of `dim` batches
+      template <typename Number, typename Location>
+      std::array<Number, dim> place_of(const Location &x) const
+      {
+        std::array<Number, dim> place;
+        for (unsigned int a = 0; a < dim; ++a)
+          place[a] = (x[a] - corner[a]) / width[a];
+        return place;
+      }
+
+      Iterator iterator;                            ///< the cell in the mesh
+      unsigned int index;                           ///< active cell index
+      std::uint64_t number;                         ///< of its place on the curve through the mesh
+      dealii::Point<dim> corner;                    ///< lower corner, m
+      dealii::Tensor<1, dim> width;                 ///< m
+      std::array<unsigned int, 2 * dim> neighbours; ///< their numbers in the table, face by face, as far as known
+    };
 
     /// Removes all cells, when the mesh changes.
     void clear()
@@ -197,7 +192,7 @@ namespace scree
     }
 
     /// The cell of a number that number_of() has returned.
-    const TableCell<dim> &operator[](const unsigned int number) const
+    const Cell &operator[](const unsigned int number) const
     {
       return cells[number];
     }
@@ -207,11 +202,9 @@ namespace scree
     unsigned int neighbour_with(const unsigned int number, const dealii::Point<dim> &x);
 
   private:
-    static constexpr unsigned int unknown = none - 1;
-
     unsigned int neighbour(const unsigned int number, const unsigned int face);
 
-    std::vector<TableCell<dim>> cells;
+    std::vector<Cell> cells;
     std::vector<unsigned int> numbers; // by active cell index
   };
 } // namespace scree

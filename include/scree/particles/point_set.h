@@ -349,8 +349,8 @@ namespace scree
       emigrants[cell->subdomain_id()].push_back(record);
     }
 
-    /// Sends the points that leave and returns those that come. Collective.
-    std::vector<Record> exchange();
+    /// Sends the points that leave, and puts in those that come. Collective.
+    void exchange();
 
     /// Gives the handler a point of the cell with this number in the table; returns its slot.
     unsigned int insert_into(const unsigned int number,

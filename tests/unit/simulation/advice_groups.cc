@@ -74,8 +74,8 @@ void test_groups()
 
 void expect_regime(const SceneNumbers &scene, const std::string &expected)
 {
-  require(name_of(regime_of(scene)) == expected,
-          "It is " + std::string(name_of(regime_of(scene))) + ", not " + expected);
+  require(regime_choice(scene).name == expected,
+          "It is " + regime_choice(scene).name + ", not " + expected);
 }
 
 void test_regimes()
