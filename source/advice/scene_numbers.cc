@@ -162,7 +162,7 @@ namespace scree
           const WaveMedium medium{ law.initial_bulk_modulus(pressure), law.shear_modulus, body.density };
           if (medium.speed() > scene.fastest.speed())
             scene.fastest = medium;
-          ++soil_points;
+          ++scene.n_soil_points;
           soil_mass += mass;
           soil_volume += volume;
           grain_volume += mass / body.grain_density;
@@ -177,7 +177,7 @@ namespace scree
       {
         for_each_point(part.points(), [&](const auto &point) {
           const double *properties = point.properties;
-          water_points += part.carrier() == nullptr;
+          scene.n_water_points += part.carrier() == nullptr;
           water_mass += properties[part.layout.mass];
           water_volume += properties[part.layout.volume];
           height_moment += properties[part.layout.mass] * height_of(point.location);
@@ -203,13 +203,12 @@ namespace scree
 
       void finish()
       {
-        double n_occupied = std::count(occupied.begin(), occupied.end(), 1);
-        const NumbersOf sums{ &soil_points,  &soil_mass,  &soil_volume,  &grain_volume,  &bulk_sum,  &shear_sum,
-                              &water_points, &water_mass, &water_volume, &height_moment, &n_occupied };
+        scene.n_occupied = std::count(occupied.begin(), occupied.end(), 1);
+        const NumbersOf sums{ &scene.n_soil_points,  &soil_mass,       &soil_volume,
+                              &grain_volume,         &bulk_sum,        &shear_sum,
+                              &scene.n_water_points, &water_mass,      &water_volume,
+                              &height_moment,        &scene.n_occupied };
         sums.sum_over_ranks(communicator);
-        scene.n_soil_points  = soil_points;
-        scene.n_water_points = water_points;
-        scene.n_occupied     = n_occupied;
         if (scene.has_soil)
           {
             scene.mean          = { bulk_sum / soil_volume, shear_sum / soil_volume, soil_mass / soil_volume };
@@ -220,9 +219,7 @@ namespace scree
           }
         // The rank with the fastest wave names its soil.
         const auto speeds = Utilities::MPI::min_max_avg(scene.fastest.speed(), communicator);
-        std::vector<double> fastest{ scene.fastest.bulk_modulus, scene.fastest.shear_modulus, scene.fastest.density };
-        fastest       = Utilities::MPI::broadcast(communicator, fastest, speeds.max_index);
-        scene.fastest = { fastest[0], fastest[1], fastest[2] };
+        scene.fastest     = Utilities::MPI::broadcast(communicator, scene.fastest, speeds.max_index);
 
         // Level in the box, soil and the water that finds no room in its pores have their centre at half their height.
         const double box_height = grid.upper_corner()[axis] - grid.lower_corner()[axis];
@@ -241,8 +238,8 @@ namespace scree
 
       std::vector<char> occupied; // cells, on this rank
       // Sums over the points, SI units; moduli times volume.
-      double soil_points = 0, soil_mass = 0, soil_volume = 0, grain_volume = 0, bulk_sum = 0, shear_sum = 0;
-      double water_points = 0, water_mass = 0, water_volume = 0;
+      double soil_mass = 0, soil_volume = 0, grain_volume = 0, bulk_sum = 0, shear_sum = 0;
+      double water_mass = 0, water_volume = 0;
       double height_moment = 0; // kg m
     };
   } // namespace

@@ -20,7 +20,7 @@ namespace scree
   /// Compares the entries of a case with those of the checkpoint it is to go on from. Returns a line for the log for
   /// each change that the results will show; throws EntryError at changes that the state in the checkpoint does not
   /// bear.
-  std::vector<std::string> notes_on_changes(const Checkpoint &checkpoint, const CaseEntries &entries);
+  std::vector<std::string> notes_on_changes(const Checkpoint &checkpoint, const CaseEntries &now);
 
   /// What to write instead of an entry or subsection, or of a value, that earlier versions had; empty if there was
   /// none.

@@ -74,8 +74,7 @@ void test_groups()
 
 void expect_regime(const SceneNumbers &scene, const std::string &expected)
 {
-  require(regime_choice(scene).name == expected,
-          "It is " + regime_choice(scene).name + ", not " + expected);
+  require(regime_choice(scene).name == expected, "It is " + regime_choice(scene).name + ", not " + expected);
 }
 
 void test_regimes()
