@@ -280,7 +280,7 @@ namespace scree
       std::map<TimerSection, double> times_of_parts() const
       {
         std::map<TimerSection, double> seconds;
-        for (const TimerSection part : step_parts)
+        for (const TimerSection part : step_parts())
           if (const double of_part = scree::seconds_of(simulation.times_of_parts(), part); of_part > 0.)
             seconds[part] = of_part;
         return seconds;
@@ -466,7 +466,7 @@ namespace scree
         writer.line(name, rounded(to_ns * first) + "; " + rounded(to_ns * later) + " ns a point");
       };
       of_steps("a step at the start; later", seen.first.seconds, seen.later.seconds);
-      for (const TimerSection part : step_parts)
+      for (const TimerSection part : step_parts())
         if (seen.first.seconds_of(part) >= 0.02 * seen.first.seconds ||
             seen.later.seconds_of(part) >= 0.02 * seen.later.seconds)
           of_steps("  " + name_of(part), seen.first.seconds_of(part), seen.later.seconds_of(part));
@@ -489,11 +489,11 @@ namespace scree
 
     void write_recommendation(const Advice &advice, Writer &writer)
     {
-      const SceneNumbers &scene = advice.scene;
-      const Regime regime       = regime_of(scene);
-      const ErrorLaw law        = error_law_of(scene);
+      const SceneNumbers &scene         = advice.scene;
+      const auto [regime, name, reason] = regime_choice(scene);
+      const ErrorLaw law                = error_law_of(scene);
       writer.title("Recommendation for a relative error of " + rounded(advice.accuracy) + ' ' + law.measure);
-      writer.line("model", name_of(regime) + ": " + reason_for(regime, scene));
+      writer.line("model", name + ": " + reason);
       if (scene.has_water && scene.has_soil)
         {
           const PointSetChoice choice = point_sets_for(regime, scene);
@@ -550,7 +550,7 @@ namespace scree
       Writer writer(out);
       const SceneNumbers &scene = advice.scene;
       const RunCost cost        = cost_of_run(scene, advice.seen, advice.schedule);
-      out << scene.dim << "D, " << name_of(regime_of(scene)) << '\n';
+      out << scene.dim << "D, " << regime_choice(scene).name << '\n';
       write_groups(scene, writer);
       if (scene.has_soil && scene.has_water)
         write_water(scene, cost.mean_step, writer);

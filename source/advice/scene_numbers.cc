@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/advice/scene_numbers.h>
+#include <scree/advice/advise.h>
 #include <scree/tensor/invariants.h>
 
 #include <iterator>
@@ -162,7 +162,7 @@ namespace scree
           const WaveMedium medium{ law.initial_bulk_modulus(pressure), law.shear_modulus, body.density };
           if (medium.speed() > scene.fastest.speed())
             scene.fastest = medium;
-          ++soil_points;
+          ++scene.n_soil_points;
           soil_mass += mass;
           soil_volume += volume;
           grain_volume += mass / body.grain_density;
@@ -177,7 +177,7 @@ namespace scree
       {
         for_each_point(part.points(), [&](const auto &point) {
           const double *properties = point.properties;
-          water_points += part.carrier() == nullptr;
+          scene.n_water_points += part.carrier() == nullptr;
           water_mass += properties[part.layout.mass];
           water_volume += properties[part.layout.volume];
           height_moment += properties[part.layout.mass] * height_of(point.location);
@@ -191,8 +191,7 @@ namespace scree
         double smallest = std::numeric_limits<double>::infinity();
         for (const BodyParameters &body : parameters.bodies)
           if (const double porosity = body.initial_porosity(); porosity > 0 && !body.is_rigid())
-            smallest = std::min(smallest,
-                                DragLaw(body.seepage.in_place_of(parameters.water), porosity).conductivity(porosity));
+            smallest = std::min(smallest, body.drag_law(parameters.water).conductivity(porosity));
         return std::isfinite(smallest) ? smallest : parameters.water.conductivity;
       }
 
@@ -204,13 +203,12 @@ namespace scree
 
       void finish()
       {
-        double n_occupied = std::count(occupied.begin(), occupied.end(), 1);
-        const NumbersOf sums{ &soil_points,  &soil_mass,  &soil_volume,  &grain_volume,  &bulk_sum,  &shear_sum,
-                              &water_points, &water_mass, &water_volume, &height_moment, &n_occupied };
+        scene.n_occupied = std::count(occupied.begin(), occupied.end(), 1);
+        const NumbersOf sums{ &scene.n_soil_points,  &soil_mass,       &soil_volume,
+                              &grain_volume,         &bulk_sum,        &shear_sum,
+                              &scene.n_water_points, &water_mass,      &water_volume,
+                              &height_moment,        &scene.n_occupied };
         sums.sum_over_ranks(communicator);
-        scene.n_soil_points  = soil_points;
-        scene.n_water_points = water_points;
-        scene.n_occupied     = n_occupied;
         if (scene.has_soil)
           {
             scene.mean          = { bulk_sum / soil_volume, shear_sum / soil_volume, soil_mass / soil_volume };
@@ -221,9 +219,7 @@ namespace scree
           }
         // The rank with the fastest wave names its soil.
         const auto speeds = Utilities::MPI::min_max_avg(scene.fastest.speed(), communicator);
-        std::vector<double> fastest{ scene.fastest.bulk_modulus, scene.fastest.shear_modulus, scene.fastest.density };
-        fastest       = Utilities::MPI::broadcast(communicator, fastest, speeds.max_index);
-        scene.fastest = { fastest[0], fastest[1], fastest[2] };
+        scene.fastest     = Utilities::MPI::broadcast(communicator, scene.fastest, speeds.max_index);
 
         // Level in the box, soil and the water that finds no room in its pores have their centre at half their height.
         const double box_height = grid.upper_corner()[axis] - grid.lower_corner()[axis];
@@ -242,8 +238,8 @@ namespace scree
 
       std::vector<char> occupied; // cells, on this rank
       // Sums over the points, SI units; moduli times volume.
-      double soil_points = 0, soil_mass = 0, soil_volume = 0, grain_volume = 0, bulk_sum = 0, shear_sum = 0;
-      double water_points = 0, water_mass = 0, water_volume = 0;
+      double soil_mass = 0, soil_volume = 0, grain_volume = 0, bulk_sum = 0, shear_sum = 0;
+      double water_mass = 0, water_volume = 0;
       double height_moment = 0; // kg m
     };
   } // namespace
@@ -259,59 +255,38 @@ namespace scree
   template decltype(survey<3>) survey<3>;
 
 
-  Regime regime_of(const SceneNumbers &scene)
+  RegimeChoice regime_choice(const SceneNumbers &scene)
   {
     if (!scene.has_water)
-      return Regime::dry;
+      return { Regime::dry, "dry", "the case has no water" };
     if (!scene.has_soil)
-      return Regime::free_water;
-    const Groups groups = groups_of(scene);
-    // Water outside, and that of soil that flows, moves on its own.
-    if (groups.drainage < thresholds::drained_below && scene.is_elastic && scene.water_fills_soil)
-      return Regime::drained;
-    if (groups.drainage > thresholds::undrained_above && groups.time_factor < thresholds::consolidates_above)
-      return Regime::undrained;
-    return Regime::coupled;
-  }
-
-
-  std::string name_of(const Regime regime)
-  {
-    static const std::map<Regime, std::string> names{ { Regime::dry, "dry" },
-                                                      { Regime::free_water, "water alone" },
-                                                      { Regime::drained, "drained" },
-                                                      { Regime::undrained, "undrained" },
-                                                      { Regime::coupled, "coupled" } };
-    return names.at(regime);
-  }
-
-
-  std::string reason_for(const Regime regime, const SceneNumbers &scene)
-  {
-    const Groups groups     = groups_of(scene);
-    const std::string ratio = "drainage time over motion time is " + short_text(groups.drainage);
-    switch (regime)
-      {
-      case Regime::dry:
-        return "the case has no water";
-      case Regime::free_water:
-        return "the case has no soil that moves";
-      case Regime::drained:
-        return ratio + ", below " + short_text(thresholds::drained_below) +
-               ": soil alone serves, of the saturated density and under water with its buoyant weight";
-      case Regime::undrained:
-        return ratio + ", above " + short_text(thresholds::undrained_above) + ", and T_v at the end " +
-               short_text(groups.time_factor) + ", below " + short_text(thresholds::consolidates_above) +
-               ": water hardly moves through the soil";
-      default:
-        if (groups.drainage > thresholds::undrained_above)
-          return ratio + ", above " + short_text(thresholds::undrained_above) + ", but T_v at the end is " +
-                 short_text(groups.time_factor) + ": pressure leaves during the run";
-        if (groups.drainage < thresholds::drained_below)
-          return ratio + ", below " + short_text(thresholds::drained_below) + ", but its water must move, too";
-        return ratio + ", between " + short_text(thresholds::drained_below) + " and " +
-               short_text(thresholds::undrained_above);
-      }
+      return { Regime::free_water, "water alone", "the case has no soil that moves" };
+    const Groups groups         = groups_of(scene);
+    const std::string ratio     = "drainage time over motion time is " + short_text(groups.drainage);
+    const std::string drained   = short_text(thresholds::drained_below);
+    const std::string undrained = short_text(thresholds::undrained_above);
+    if (groups.drainage < thresholds::drained_below)
+      // Water outside, and that of soil that flows, moves on its own.
+      return scene.is_elastic && scene.water_fills_soil
+                 ? RegimeChoice{ Regime::drained,
+                                 "drained",
+                                 ratio + ", below " + drained +
+                                     ": soil alone serves, of the saturated density and under water with its buoyant "
+                                     "weight" }
+                 : RegimeChoice{ Regime::coupled,
+                                 "coupled",
+                                 ratio + ", below " + drained + ", but its water must move, too" };
+    if (!(groups.drainage > thresholds::undrained_above))
+      return { Regime::coupled, "coupled", ratio + ", between " + drained + " and " + undrained };
+    if (groups.time_factor < thresholds::consolidates_above)
+      return { Regime::undrained,
+               "undrained",
+               ratio + ", above " + undrained + ", and T_v at the end " + short_text(groups.time_factor) + ", below " +
+                   short_text(thresholds::consolidates_above) + ": water hardly moves through the soil" };
+    return { Regime::coupled,
+             "coupled",
+             ratio + ", above " + undrained + ", but T_v at the end is " + short_text(groups.time_factor) +
+                 ": pressure leaves during the run" };
   }
 
 

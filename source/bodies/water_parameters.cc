@@ -26,32 +26,6 @@ namespace scree
   }
 
 
-  void SeepageStart::check(const unsigned int n_bodies,
-                           const std::pair<std::string, std::string> &phreatic,
-                           const std::string &reservoir_level,
-                           const std::string &initial_pressure) const
-  {
-    require_entry(is_steady || wall_heads.empty(),
-                  { "Water", "Heads at walls", wall_heads },
-                  "this entry has no effect. Remove it, or write \"Steady seepage = true\".");
-    heads();
-    if (!is_steady)
-      return;
-    require_entry(n_bodies > 0,
-                  { "Water", "Steady seepage", "true" },
-                  "there is no soil, as entry \"Bodies\" is none. Remove this entry.");
-    require_entry(phreatic.second.empty(),
-                  { "Water", phreatic.first, phreatic.second },
-                  "the water table follows from \"Steady seepage\". Keep one of the two.");
-    require_entry(!reservoir_level.empty() || !wall_heads.empty(),
-                  { "Water", "Steady seepage", "true" },
-                  "no head is given. Write a \"Reservoir level\" or \"Heads at walls\".");
-    require_entry(initial_pressure != "none",
-                  { "Water", "Initial pressure", initial_pressure },
-                  "the pressure is that of \"Steady seepage\". Keep one of the two.");
-  }
-
-
   void WaterParameters::add_parameters(ParameterHandler &prm)
   {
     prm.add_parameter("Region",
@@ -131,8 +105,7 @@ namespace scree
       check_expression(dim, entry_name("Water", "Region"), region, 1);
     if (!initial_velocity.empty())
       check_expression(dim, entry_name("Water", "Initial velocity"), initial_velocity, dim);
-    seepage_start.check(
-        n_bodies, std::make_pair(std::string("Phreatic surface"), phreatic_surface), reservoir_level, initial_pressure);
+    check_seepage(n_bodies);
     if (has_levels())
       check_levels(gravity, n_bodies);
     if (air_entry_pressure > 0)
@@ -147,11 +120,33 @@ namespace scree
     if (grain_diameter > 0)
       check_grain_diameter();
     // Gravity 0 is no fault: the pressure starts at 0.
-    require_entry(initial_pressure_kind() == InitialPressure::none ||
-                      std::count(gravity.begin(), gravity.end(), 0.) + 1 >= long(dim),
+    require_entry(!starts_hydrostatic() || std::count(gravity.begin(), gravity.end(), 0.) + 1 >= long(dim),
                   { "Water", "Initial pressure", initial_pressure },
                   "the weight above a point needs gravity along one axis, but entry \"Gravity\" = " +
                       number_text(gravity) + ". Change it, or write \"Initial pressure = none\".");
+  }
+
+
+  void WaterParameters::check_seepage(const unsigned int n_bodies) const
+  {
+    require_entry(is_steady || wall_heads.empty(),
+                  { "Water", "Heads at walls", wall_heads },
+                  "this entry has no effect. Remove it, or write \"Steady seepage = true\".");
+    heads_at_walls();
+    if (!is_steady)
+      return;
+    require_entry(n_bodies > 0,
+                  { "Water", "Steady seepage", "true" },
+                  "there is no soil, as entry \"Bodies\" is none. Remove this entry.");
+    require_entry(phreatic_surface.empty(),
+                  { "Water", "Phreatic surface", phreatic_surface },
+                  "the water table follows from \"Steady seepage\". Keep one of the two.");
+    require_entry(!reservoir_level.empty() || !wall_heads.empty(),
+                  { "Water", "Steady seepage", "true" },
+                  "no head is given. Write a \"Reservoir level\" or \"Heads at walls\".");
+    require_entry(initial_pressure != "none",
+                  { "Water", "Initial pressure", initial_pressure },
+                  "the pressure is that of \"Steady seepage\". Keep one of the two.");
   }
 
 
@@ -205,7 +200,7 @@ namespace scree
 
   std::string WaterParameters::region_in_soil(const unsigned int dim) const
   {
-    if (seepage_start.is_steady)
+    if (is_steady)
       return "1";
     if (has_levels())
       return below("(" + place().second + ')' + (fringe > 0. ? " + " + number_text(fringe) : ""), dim);
@@ -219,6 +214,4 @@ namespace scree
       return is_where_soil_is() ? "" : region;
     return reservoir_level.empty() ? "" : below(reservoir_level, dim);
   }
-
-
 } // namespace scree

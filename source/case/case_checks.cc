@@ -289,7 +289,7 @@ namespace scree
       constexpr char conductivity_unit[] = "m/s (1 m/d = 1.16e-5 m/s)";
       const WaterParameters &water       = parameters.water;
       for (const BodyParameters &body : parameters.bodies)
-        ask(body.name, "Hydraulic conductivity", body.seepage.conductivity, 1e-13, 1., conductivity_unit);
+        ask(body.name, "Hydraulic conductivity", body.conductivity, 1e-13, 1., conductivity_unit);
       ask("Water", "Density", water.density, 500., 2e3, "kg/m^3 (1 g/cm^3 = 1e3 kg/m^3)");
       ask("Water", "Hydraulic conductivity", water.conductivity, 1e-13, 1., conductivity_unit);
       ask("Water", "Grain diameter", water.grain_diameter, 1e-7, 3., "m (1 mm = 1e-3 m)");
@@ -409,77 +409,59 @@ namespace scree
     }
 
 
-    /// An entry whose value has changed, or a subsection that only one of the cases has.
-    struct Difference
-    {
-      Change kind;
-      std::string name;   ///< of entry or subsection, as messages begin
-      std::string now;    ///< ` = 3`; of a subsection nothing
-      std::string before; ///< `2`; of a subsection whether there was one
-    };
-
-
     std::string value_text(const CaseEntry *entry)
     {
       return !entry ? "no such entry" : entry->value.empty() ? "(empty)" : entry->value;
     }
-
-
-    std::string text_before(const CaseEntry *before, const CaseEntry *now)
-    {
-      const bool are_files = before && now && !before->checksum.empty() && !now->checksum.empty();
-      return value_text(before) + (are_files ? " with other contents" : "");
-    }
-
-
-    /// The differences. Those of whole subsections come last, at the top first: they say what has happened.
-    std::vector<Difference> differences_of(const CaseEntries &before, const CaseEntries &now)
-    {
-      std::vector<Difference> result;
-      std::map<std::string, std::string> subsections; // that one of the cases has, and whether there was one
-      const auto compare = [&](const CaseEntry &entry, const CaseEntry *was, const CaseEntry *is, const bool in_both) {
-        if (was && is && same_value(*was, *is))
-          return;
-        const Change kind = kind_of(entry, was, is);
-        if (in_both)
-          result.push_back(
-              { kind, entry_name(entry.subsection, entry.name), " = " + value_text(is), text_before(was, is) });
-        else if (kind == Change::refused)
-          subsections[entry.subsection] = is ? "none" : "one";
-      };
-      for (const CaseEntry &entry : now.all())
-        compare(entry, before.find(entry.subsection, entry.name), &entry, before.has_subsection(entry.subsection));
-      for (const CaseEntry &entry : before.all())
-        if (!now.find(entry.subsection, entry.name))
-          compare(entry, &entry, nullptr, now.has_subsection(entry.subsection));
-      for (const bool at_top : { true, false })
-        for (const auto &[path, was] : subsections)
-          if (at_top == (path.find('/') == std::string::npos))
-            result.push_back({ Change::refused, "subsection " + path, "", was });
-      return result;
-    }
   } // namespace
 
 
-  std::vector<std::string> notes_on_changes(const Checkpoint &checkpoint, const CaseEntries &entries)
+  std::vector<std::string> notes_on_changes(const Checkpoint &checkpoint, const CaseEntries &now)
   {
-    constexpr unsigned int most_names = 4;
+    struct Refused
+    {
+      std::string name;   // of entry or subsection, as messages begin
+      std::string now;    // ` = 3`; of a subsection nothing
+      std::string before; // `2`; of a subsection whether there was one
+    };
+    const CaseEntries &before = checkpoint.entries;
     std::vector<std::string> notes;
-    std::vector<Difference> refused;
-    for (const Difference &difference : differences_of(checkpoint.entries, entries))
-      if (difference.kind == Change::refused)
-        refused.push_back(difference);
-      else if (difference.kind == Change::noted)
-        notes.push_back("Changed from here on: " + difference.name + difference.now + ", before " + difference.before +
-                        '.');
+    std::vector<Refused> refused;
+    std::map<std::string, std::string> subsections; // that one of the cases has, and whether there was one
+    const auto compare = [&](const CaseEntry &entry, const CaseEntry *was, const CaseEntry *is, const bool in_both) {
+      if (was && is && same_value(*was, *is))
+        return;
+      const Change kind    = kind_of(entry, was, is);
+      const bool are_files = was && is && !was->checksum.empty() && !is->checksum.empty();
+      const Refused change{ entry_name(entry.subsection, entry.name),
+                            " = " + value_text(is),
+                            value_text(was) + (are_files ? " with other contents" : "") };
+      if (kind == Change::refused && in_both)
+        refused.push_back(change);
+      else if (kind == Change::refused)
+        subsections[entry.subsection] = is ? "none" : "one";
+      else if (kind == Change::noted && in_both)
+        notes.push_back("Changed from here on: " + change.name + change.now + ", before " + change.before + '.');
+    };
+    for (const CaseEntry &entry : now.all())
+      compare(entry, before.find(entry.subsection, entry.name), &entry, before.has_subsection(entry.subsection));
+    for (const CaseEntry &entry : before.all())
+      if (!now.find(entry.subsection, entry.name))
+        compare(entry, &entry, nullptr, now.has_subsection(entry.subsection));
+    // Whole subsections come last, at the top first: they say what has happened.
+    for (const bool at_top : { true, false })
+      for (const auto &[path, was] : subsections)
+        if (at_top == (path.find('/') == std::string::npos))
+          refused.push_back({ "subsection " + path, "", was });
     if (refused.empty())
       return notes;
+    constexpr unsigned int most_names = 4;
     std::string others;
     for (unsigned int d = 1; d < std::min<std::size_t>(refused.size(), most_names); ++d)
       others += (others.empty() ? " Changed, too: " : "; ") + refused[d].name;
     if (refused.size() > most_names)
       others += "; and " + std::to_string(refused.size() - most_names) + " more";
-    const Difference &first = refused.front();
+    const Refused &first = refused.front();
     throw EntryError(first.name + first.now + ": the run that wrote " + checkpoint.folder + " had " + first.before +
                      ", and --resume cannot change that. Write it as it was, or run without --resume in another "
                      "\"Output directory\"." +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/case/memory.h>
+#include <scree/case/case_checks.h>
 #include <scree/io/progress.h>
 #include <scree/seeding/seeding.h>
 
@@ -32,8 +32,11 @@ namespace scree
     constexpr unsigned int samples_of_axis = dim == 2 ? 200 : 40;
 
     /// Whether a region holds the samples of the box, x first.
+    /// @param plane axis and coordinate, m, to which the samples are moved; none: they stay
     template <int dim>
-    std::vector<char> samples_in(const Region<dim> &region, const GridParameters &grid)
+    std::vector<char> samples_in(const Region<dim> &region,
+                                 const GridParameters &grid,
+                                 const std::optional<std::pair<unsigned int, double>> &plane = {})
     {
       constexpr unsigned int n = samples_of_axis<dim>;
       std::vector<char> is_inside(Utilities::pow(n, dim));
@@ -42,6 +45,8 @@ namespace scree
           Point<dim> x;
           for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
             x[a] = grid.lower_corner[a] + (grid.upper_corner[a] - grid.lower_corner[a]) * (rest % n + 0.5) / double(n);
+          if (plane)
+            x[plane->first] = plane->second;
           is_inside[i] = region.contains(x);
         }
       return is_inside;
@@ -88,24 +93,11 @@ namespace scree
       // The open area, by samples.
       const GridParameters &grid = parameters.grid;
       const Region<dim> region(entry_name(inflow.subsection, "Region"), inflow.region);
-      constexpr unsigned int n = samples_of_axis<dim>;
-      const unsigned int axis  = inflow.face_number(dim) / 2;
-      double area              = 0;
-      for (unsigned int i = 0; i < Utilities::pow(n, dim - 1); ++i)
-        {
-          Point<dim> x;
-          x[axis]         = inflow.place(grid);
-          double of_place = 1;
-          for (unsigned int a = 0, rest = i; a < dim; ++a)
-            if (a != axis)
-              {
-                const double side = grid.upper_corner[a] - grid.lower_corner[a];
-                x[a]              = grid.lower_corner[a] + side * (rest % n + 0.5) / n;
-                of_place *= side / n;
-                rest /= n;
-              }
-          area += region.contains(x) ? of_place : 0.;
-        }
+      const unsigned int axis = inflow.face_number(dim) / 2;
+      const auto is_inside    = samples_in(region, grid, std::make_pair(axis, inflow.place(grid)));
+      double area             = std::count(is_inside.begin(), is_inside.end(), 1) / double(is_inside.size());
+      for (unsigned int a = 0; a < dim; ++a)
+        area *= a == axis ? 1. : grid.upper_corner[a] - grid.lower_corner[a];
       const unsigned int sign = inflow.face_number(dim) % 2;
       return integral * area * inflow.unit_direction(dim)[axis] * (sign == 0 ? 1. : -1.);
     }

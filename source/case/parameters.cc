@@ -42,44 +42,9 @@ namespace scree
     }
 
 
-    /// A map of a case in space: what messages call its entry, the file, its coordinate system (empty: none), and how
-    /// it gets another one.
-    struct CaseMap
-    {
-      std::string entry, file, system, remedy;
-      bool is_raster;
-    };
-
-
-    /// The rasters, then the outlines.
-    std::vector<CaseMap> maps_of(const Parameters &parameters)
-    {
-      std::vector<CaseMap> result;
-      const auto add_raster = [&](const std::string &subsection, const std::string &entry, const std::string &file) {
-        if (const std::string name = entry_name(subsection, entry); !file.empty())
-          result.push_back(
-              { name, file, read_raster_system(file, name), "convert the raster with gdalwarp -t_srs.", true });
-      };
-      add_raster(parameters.bed.subsection, "Raster", parameters.bed.raster());
-      for (const ObstacleParameters &obstacle : parameters.obstacles)
-        add_raster(obstacle.surface.subsection, "Raster", obstacle.surface.raster());
-      for (const BodyParameters &body : parameters.bodies)
-        {
-          add_raster(body.name, "Thickness", body.seeding.source.thickness);
-          add_raster(body.name, "Upper surface", body.seeding.source.upper_surface);
-        }
-      for (const BodyParameters &body : parameters.bodies)
-        if (const std::string name = entry_name(body.name, "Outline"), &file = body.seeding.source.outline;
-            !file.empty())
-          result.push_back(
-              { name, file, read_outline_system(file, name), "convert the outline with ogr2ogr -t_srs.", false });
-      return result;
-    }
-
-
     /// The coordinate system of the case's maps, see Raster::system: that of entry `Coordinate system`, else that of
     /// the first raster that has one; empty if none is known. Throws EntryError if the entry is no such system, or if
-    /// rasters have others.
+    /// rasters or outlines have others.
     std::string system_of_maps(const Parameters &parameters)
     {
       if (parameters.dimension != 3)
@@ -93,15 +58,34 @@ namespace scree
       // A place of the map.
       const dealii::Point<2> place(parameters.local_origin[0] + parameters.grid.lower_corner[0],
                                    parameters.local_origin[1] + parameters.grid.lower_corner[1]);
-      for (const CaseMap &map : maps_of(parameters))
+      const auto compare =
+          [&](const std::string &own, const std::string &entry, const std::string &file, const std::string &remedy) {
+            if (!own.empty() && !system.empty() && !is_same_system(system, own, place))
+              throw EntryError(entry + " = " + file + ": its coordinate system is " + name_of_system(own) +
+                               ", but that of " + source + " is " + name_of_system(system) +
+                               ". All maps of a case must have the same one: " + remedy);
+          };
+      const auto compare_raster =
+          [&](const std::string &subsection, const std::string &entry, const std::string &file) {
+            if (file.empty())
+              return;
+            const std::string name = entry_name(subsection, entry), own = read_raster_system(file, name);
+            if (system.empty() && !own.empty())
+              system = own, source = name + " = " + file;
+            compare(own, name, file, "convert the raster with gdalwarp -t_srs.");
+          };
+      compare_raster(parameters.bed.subsection, "Raster", parameters.bed.raster());
+      for (const ObstacleParameters &obstacle : parameters.obstacles)
+        compare_raster(obstacle.surface.subsection, "Raster", obstacle.surface.raster());
+      for (const BodyParameters &body : parameters.bodies)
         {
-          if (system.empty() && map.is_raster && !map.system.empty())
-            system = map.system, source = map.entry + " = " + map.file;
-          if (!system.empty() && !map.system.empty() && !is_same_system(system, map.system, place))
-            throw EntryError(map.entry + " = " + map.file + ": its coordinate system is " + name_of_system(map.system) +
-                             ", but that of " + source + " is " + name_of_system(system) +
-                             ". All maps of a case must have the same one: " + map.remedy);
+          compare_raster(body.name, "Thickness", body.seeding.source.thickness);
+          compare_raster(body.name, "Upper surface", body.seeding.source.upper_surface);
         }
+      for (const BodyParameters &body : parameters.bodies)
+        if (const std::string name = entry_name(body.name, "Outline"), &file = body.seeding.source.outline;
+            !file.empty())
+          compare(read_outline_system(file, name), name, file, "convert the outline with ogr2ogr -t_srs.");
       if (parameters.output.maps.write && parameters.output.maps.format != "ASCII grid" && !system.empty())
         require_system_in_metres(system, source + ": its coordinate system is " + name_of_system(system) + ": ");
       return system;
@@ -112,7 +96,9 @@ namespace scree
   void BodyParameters::check(const std::vector<double> &gravity, const WaterParameters *water) const
   {
     seeding.check(name, gravity.size());
-    seepage.check(name, water);
+    require_entry(water != nullptr || conductivity == 0,
+                  { name, "Hydraulic conductivity", conductivity },
+                  "this entry has no effect, as the file has no subsection Water. Add one, or remove the entry.");
     material.check(name);
     initial_state.check(name, gravity);
     if (is_rigid())
@@ -214,7 +200,7 @@ namespace scree
         map_system = system_of_maps(*this);
         read_maps();
         if (has_water)
-          water.seepage_start.check_heads(grid.lower_corner, grid.upper_corner);
+          water.check_wall_heads(grid.lower_corner, grid.upper_corner);
         water.find_fringe(size_of_gravity());
         if (safety.strength_factor != 1. && settling.maximum_time == 0.) // or else it acts at the release
           reduce_strength(safety.strength_factor);
@@ -537,10 +523,8 @@ namespace scree
                       { body.name, "Saturated unit weight", seeding.saturated_unit_weight },
                       "the scene is dry, and the soil would weigh less than this. Write \"Dry unit weight\" (in total "
                       "stress the same value), or add subsection Water.");
-        handler.enter_subsection(body.name);
-        handler.set("Grain density", exact_text({ result.grain_density }));
-        handler.set("Initial porosity", exact_text({ result.porosity }));
-        handler.leave_subsection();
+        set(body.name, "Grain density", exact_text({ result.grain_density }));
+        set(body.name, "Initial porosity", exact_text({ result.porosity }));
       }
   }
 
@@ -551,7 +535,7 @@ namespace scree
     bool has_strength = false;
     for (BodyParameters &body : bodies)
       {
-        if (body.initial_state.stress_kind() == InitialStress::k0)
+        if (body.initial_state.is_k0())
           body.initial_state.k0 = exact_text({ body.k0() }); // of the soil as it is
         has_strength = body.material.divide_strength(factor) || has_strength;
         body.material.check(body.name); // The law must be possible with that strength, too.

@@ -13,10 +13,10 @@ namespace scree
                               const Tensor<1, dim> &gravity,
                               const double spacing)
       : grid(grid)
+      , axis(0)
       , layers(std::move(layers))
       , gravity(gravity.norm())
       , spacing(spacing)
-      , axis(0)
   {
     for (unsigned int a = 1; a < dim; ++a)
       if (std::abs(gravity[a]) > std::abs(gravity[axis]))
@@ -163,10 +163,10 @@ namespace scree
     set_stress(body,
                entry_name(body.name + "/Initial state", "K0") + " = " + number_text(k0),
                modulus,
-               overburden.communicator(),
+               overburden.grid.communicator(),
                [&](const Point<dim> &x, double *stress) {
                  const double vertical = overburden.weight_above(x) + (suction ? suction(x) : 0.);
-                 set_k0_components(vertical, k0, overburden.vertical_axis(), stress);
+                 set_k0_components(vertical, k0, overburden.axis, stress);
                });
   }
 
@@ -199,7 +199,7 @@ namespace scree
     std::vector<typename Overburden<dim>::Layer> layers;
     for (const SoilRegion &body : soil)
       layers.emplace_back(body.template places<dim>(), body.bulk_density);
-    if (!water || water->initial_pressure_kind() != InitialPressure::hydrostatic)
+    if (!water || !water->starts_hydrostatic())
       return layers;
     const bool has_fringe = water->fringe > 0.;
     for (auto &part : water_parts<dim>(water->without_fringe(), soil))
@@ -239,7 +239,7 @@ namespace scree
     template <int dim>
     SuctionAbove<dim> suction_above_table(const WaterParameters &water, const Tensor<1, dim> &gravity)
     {
-      if (water.fringe == 0. || water.initial_pressure_kind() == InitialPressure::none)
+      if (water.fringe == 0. || !water.starts_hydrostatic())
         return {};
       const auto [entry, elevation] = water.place();
       const std::shared_ptr<const Expression<dim>> table =
@@ -307,12 +307,12 @@ namespace scree
   {
     const Tensor<1, dim> weight = water.density * water_overburden.gravity_vector();
     const auto &layout          = water.layout;
-    on_all_ranks(water_overburden.communicator(), [&] {
+    on_all_ranks(water_overburden.grid.communicator(), [&] {
       for_each_point(water.points(), [&](const auto &point) {
         const double pressure             = water_overburden.weight_above(point.location);
         point.properties[layout.pressure] = pressure;
         Tensor<1, dim> gradient           = weight;
-        const unsigned int vertical       = water_overburden.vertical_axis();
+        const unsigned int vertical       = water_overburden.axis;
         const double pull                 = suction ? suction(point.location) : 0.;
         if (reach > 0 && pull == 0.)
           gradient += horizontal_gradient<dim>([&](const Point<dim> &x) { return water_overburden.weight_above(x); },

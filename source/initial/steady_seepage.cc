@@ -30,15 +30,15 @@ namespace scree
 
     /// The head at each face of the box, m, in deal.II's numbering; NaN where none is given. Throws EntryError
     /// if there is no such face.
-    std::vector<double> heads_at_faces(const SeepageStart &start, const unsigned int dim)
+    std::vector<double> heads_at_faces(const WaterParameters &water, const unsigned int dim)
     {
       const std::vector<std::string> names = FaceEntries::names(dim);
       std::vector<double> heads(names.size(), no_head);
-      for (const auto &[name, head] : start.heads())
+      for (const auto &[name, head] : water.heads_at_walls())
         {
           const auto face = std::find(names.begin(), names.end(), name);
           require_entry(face != names.end() && std::isnan(heads[face - names.begin()]),
-                        { "Water", "Heads at walls", start.wall_heads },
+                        { "Water", "Heads at walls", water.wall_heads },
                         "write each wall once. The walls are " + boost::algorithm::join(names, ", ") + '.');
           heads[face - names.begin()] = head;
         }
@@ -556,7 +556,7 @@ namespace scree
       , walls(walls)
       , ground(ground)
       , unit_weight(unit_weight)
-      , heads(heads_at_faces(water.seepage_start, dim))
+      , heads(heads_at_faces(water, dim))
   {
     for (const SoilRegion &body : soil.bodies)
       regions.push_back(body.template places<dim>());

@@ -165,7 +165,7 @@ namespace scree
     const auto line = [&](const std::string &name, const double s) {
       folder.record(formatted("%-34s %10.2f %6.1f %% %*.1f", name.c_str(), s, 100 * s / total, width, s * to_ns));
     };
-    for (const TimerSection part : step_parts)
+    for (const TimerSection part : step_parts())
       if (const double s = seconds_of(parts, part); s > 0)
         {
           line(name_of(part), s);

@@ -7,97 +7,102 @@
 
 #include <deal.II/base/geometry_info.h>
 
+#include <numeric>
+
 namespace scree
 {
   using namespace dealii;
 
-  template <int dim>
-  PlacesOfPoints<dim> places_of_points(const Parameters &parameters)
+  namespace
   {
-    struct Part
+    /// Where the case puts points at the start. Refers to the parameters.
+    template <int dim>
+    PlacesOfPoints<dim> places_of_points(const Parameters &parameters)
     {
-      Region<dim> region;
-      unsigned int points_per_cell;
-    };
-    const auto parts = std::make_shared<std::vector<Part>>();
-    const auto soil  = parameters.soil_regions();
-    for (unsigned int i = 0; i < soil.size(); ++i)
-      parts->push_back({ soil[i].template places<dim>(), parameters.bodies[i].seeding.points_per_cell });
-    if (parameters.has_water && parameters.water.point_sets_kind() == PointSets::double_point)
-      for (auto &part : water_parts<dim>(parameters.water, soil))
-        parts->push_back({ std::move(part.region), parameters.water.points_per_cell });
-    struct Section // of an inflow
-    {
-      Region<dim> region;
-      unsigned int axis;
-      double lower; // coordinate of the lower side of a layer, m
-    };
-    const auto sections = std::make_shared<std::vector<Section>>();
-    for (const InflowParameters &inflow : parameters.inflows)
+      struct Part
       {
-        const unsigned int face = inflow.face_number(dim);
-        const double x          = inflow.place(parameters.grid);
-        sections->push_back({ Region<dim>(entry_name(inflow.subsection, "Region"), inflow.region),
-                              face / 2,
-                              face % 2 == 0 ? x : x - parameters.grid.cell_size / parameters.points_per_cell(inflow) });
-      }
-    unsigned int n_places = 0;
-    for (const Part &part : *parts)
-      n_places += Utilities::fixed_power<dim>(part.points_per_cell) * Region<dim>::n_places_of_cube;
-    const auto loaded = [&parameters](const Point<dim> &cell) {
-      return parameters.surface_load.touches_cell(&cell[0], parameters.grid, dim);
-    };
-    const auto fed = [sections, &parameters](const Point<dim> &cell) {
-      return std::any_of(sections->begin(), sections->end(), [&](const Section &section) {
-        const double beyond = section.lower - cell[section.axis], width = parameters.grid.cell_size;
-        return beyond > -1e-6 * width && beyond < (1. - 1e-6) * width && section.region.touches_cube(cell, width);
-      });
-    };
-    const auto in_cell = [parts, loaded, fed, &parameters](const Point<dim> &cell) {
-      const auto touches_cell = [&](const Part &part) {
-        const unsigned int n = part.points_per_cell;
-        const double width   = parameters.grid.cell_size / n;
-        for (unsigned int i = 0; i < Utilities::fixed_power<dim>(n); ++i)
-          {
-            Point<dim> corner = cell;
-            for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
-              corner[a] += width * (rest % n);
-            if (part.region.touches_cube(corner, width))
-              return true;
-          }
-        return false;
+        Region<dim> region;
+        unsigned int points_per_cell;
       };
-      return loaded(cell) || fed(cell) || std::any_of(parts->begin(), parts->end(), touches_cell);
-    };
-    const auto at_place = [parts, loaded, fed](const Point<dim> &cell, const Point<dim> &x) {
-      return loaded(cell) || fed(cell) ||
-             std::any_of(parts->begin(), parts->end(), [&](const Part &part) { return part.region.contains(x); });
-    };
-    return { in_cell, at_place, n_places };
-  }
+      const auto parts = std::make_shared<std::vector<Part>>();
+      const auto soil  = parameters.soil_regions();
+      for (unsigned int i = 0; i < soil.size(); ++i)
+        parts->push_back({ soil[i].template places<dim>(), parameters.bodies[i].seeding.points_per_cell });
+      if (parameters.has_water && parameters.water.point_sets_kind() == PointSets::double_point)
+        for (auto &part : water_parts<dim>(parameters.water, soil))
+          parts->push_back({ std::move(part.region), parameters.water.points_per_cell });
+      struct Section // of an inflow
+      {
+        Region<dim> region;
+        unsigned int axis;
+        double lower; // coordinate of the lower side of a layer, m
+      };
+      const auto sections = std::make_shared<std::vector<Section>>();
+      for (const InflowParameters &inflow : parameters.inflows)
+        {
+          const unsigned int face = inflow.face_number(dim);
+          const double x          = inflow.place(parameters.grid);
+          sections->push_back(
+              { Region<dim>(entry_name(inflow.subsection, "Region"), inflow.region),
+                face / 2,
+                face % 2 == 0 ? x : x - parameters.grid.cell_size / parameters.points_per_cell(inflow) });
+        }
+      unsigned int n_places = 0;
+      for (const Part &part : *parts)
+        n_places += Utilities::fixed_power<dim>(part.points_per_cell) * Region<dim>::n_places_of_cube;
+      const auto loaded = [&parameters](const Point<dim> &cell) {
+        return parameters.surface_load.touches_cell(&cell[0], parameters.grid, dim);
+      };
+      const auto fed = [sections, &parameters](const Point<dim> &cell) {
+        return std::any_of(sections->begin(), sections->end(), [&](const Section &section) {
+          const double beyond = section.lower - cell[section.axis], width = parameters.grid.cell_size;
+          return beyond > -1e-6 * width && beyond < (1. - 1e-6) * width && section.region.touches_cube(cell, width);
+        });
+      };
+      const auto in_cell = [parts, loaded, fed, &parameters](const Point<dim> &cell) {
+        const auto touches_cell = [&](const Part &part) {
+          const unsigned int n = part.points_per_cell;
+          const double width   = parameters.grid.cell_size / n;
+          for (unsigned int i = 0; i < Utilities::fixed_power<dim>(n); ++i)
+            {
+              Point<dim> corner = cell;
+              for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
+                corner[a] += width * (rest % n);
+              if (part.region.touches_cube(corner, width))
+                return true;
+            }
+          return false;
+        };
+        return loaded(cell) || fed(cell) || std::any_of(parts->begin(), parts->end(), touches_cell);
+      };
+      const auto at_place = [parts, loaded, fed](const Point<dim> &cell, const Point<dim> &x) {
+        return loaded(cell) || fed(cell) ||
+               std::any_of(parts->begin(), parts->end(), [&](const Part &part) { return part.region.contains(x); });
+      };
+      return { in_cell, at_place, n_places };
+    }
 
-  template PlacesOfPoints<2> places_of_points(const Parameters &);
-  template PlacesOfPoints<3> places_of_points(const Parameters &);
+  } // namespace
 
 
   template <int dim>
   Scene<dim>::Scene(const Parameters &parameters, const MPI_Comm communicator)
-      : expected_memory(require_memory<dim>(parameters, communicator))
+      : parameters(parameters)
+      , expected_memory(require_memory<dim>(parameters, communicator))
       , grid(parameters.grid, places_of_points<dim>(parameters), communicator)
       , walls(grid, parameters.boundaries)
       , water_walls(parameters.has_water ? std::make_unique<BoundaryConditions<dim>>(grid, parameters.water_boundaries)
                                          : nullptr)
-      , constraints(grid, walls, water_walls.get())
       , forcing(grid, parameters.gravity, parameters.body_forces, parameters.time_step.mass_scaling)
-      , parameters(parameters)
       , water_at_start(parameters.water)
       , groups(parameters.contact_groups())
       , communicator(communicator)
   {
     make_bodies();
+    constraints.emplace_back(grid, walls, water_walls.get());
     if (groups.n > 1 &&
         std::any_of(bodies.begin(), bodies.end(), [](const SoilBody<dim> &body) { return body.is_rigid; }))
-      walls_alone = std::make_unique<Constraints<dim>>(grid, walls, water_walls.get());
+      constraints.emplace_back(grid, walls, water_walls.get());
     ground = make_bed<dim>(
         parameters.bed, parameters.grid.lower_corner, parameters.grid.upper_corner, parameters.grid.cell_size);
     if (ground)
@@ -188,7 +193,7 @@ namespace scree
         bodies.back().spacing        = grid.cell_size() / body.seeding.points_per_cell;
         bodies.back().affine_inertia = inertia;
         if (parameters.has_water)
-          bodies.back().drag.emplace(body.seepage.in_place_of(parameters.water), body.initial_porosity());
+          bodies.back().drag.emplace(body.drag_law(parameters.water));
         if (water_rides)
           water.emplace_back(parameters.water.density, affine, bodies.back());
       }
@@ -207,7 +212,7 @@ namespace scree
       {
         const bool sticks_to_rigid = std::any_of(
             bodies.begin(), bodies.end(), [g](const SoilBody<dim> &body) { return body.is_rigid && body.group == g; });
-        constraints_of_groups.push_back(walls_alone && !sticks_to_rigid ? walls_alone.get() : &constraints);
+        constraints_of_groups.push_back(sticks_to_rigid ? &constraints.front() : &constraints.back());
       }
     const Model<dim> model{ grid,
                             forcing,
@@ -281,7 +286,7 @@ namespace scree
       hold_at_inflows();
     unsigned int number = 0;
     for (const Inflow<dim> &inflow : inflows)
-      constraints.set_inflow_velocity(number++, inflow.velocity());
+      constraints.front().set_inflow_velocity(number++, inflow.velocity());
 
     // Walls do not act where obstacles that move cover them.
     if (std::none_of(obstacles.begin(), obstacles.end(), [](const auto &obstacle) { return obstacle.is_moving; }))
@@ -290,9 +295,8 @@ namespace scree
     for (const Obstacle<dim> &obstacle : obstacles)
       if (obstacle.is_moving)
         obstacle.add_covered_nodes(covered);
-    constraints.cover(covered);
-    if (walls_alone)
-      walls_alone->cover(covered);
+    for (Constraints<dim> &of_nodes : constraints)
+      of_nodes.cover(covered);
   }
 
 
@@ -343,8 +347,7 @@ namespace scree
     Blocks blocks;
     const auto append = [&](const PointSet<dim> &points, const unsigned int velocity) {
       for_each_point(points, [&](const auto &point) {
-        const double *v           = point.properties + velocity;
-        const Tensor<1, dim> path = time * Tensor<1, dim>(make_array_view(v, v + dim));
+        const Tensor<1, dim> path = time * vector_of<dim>(point.properties + velocity);
         if (ground)
           append_way(point.location, path, *ground, grid, blocks);
         else
@@ -389,9 +392,9 @@ namespace scree
         for (unsigned int node = 0; node < is_rigid.size(); ++node)
           is_rigid[node] = field[node][NodalField<dim>::mass] > 0.;
       }
-    constraints.hold_soil(is_rigid);
-    if (walls_alone)
-      walls_alone->reinit();
+    constraints.front().hold_soil(is_rigid);
+    if (constraints.size() > 1)
+      constraints.back().reinit();
   }
 
 
@@ -410,12 +413,27 @@ namespace scree
       if (const unsigned int n_layers = inflow.end_step(); n_layers > 0)
         {
           unsigned int n_points = 0;
+          const auto count      = [&](const std::vector<int> &is_here) {
+            n_points += std::accumulate(is_here.begin(), is_here.end(), 0);
+          };
           for (unsigned int back = n_layers; back-- > 0;)
             {
+              std::vector<Point<dim>> locations;
+              for (const auto &place : inflow.places())
+                locations.push_back(place.location + inflow.advance_of(back) * inflow.inward());
               if (inflow.brings_soil)
-                n_points += add_soil(inflow, back, totals);
+                count(add_soil(inflow, locations, totals));
               if (inflow.water_share > 0.)
-                n_points += add_water(inflow, back, pressure, totals);
+                count(add_points(
+                    water.front().points(),
+                    water.front().layout,
+                    locations,
+                    inflow.velocity(),
+                    [&](const Entrant &entrant, std::vector<double> &properties) {
+                      const double volume = inflow.places()[entrant.number].volume * inflow.water_share;
+                      fill_with_water(entrant, volume, pressure(entrant.cell), properties, totals);
+                    },
+                    totals));
             }
           const unsigned int n_sets = inflow.brings_soil + (inflow.water_share > 0.);
           AssertThrow(Utilities::MPI::sum(n_points, communicator) == n_sets * n_layers * inflow.places().size(),
@@ -457,28 +475,19 @@ namespace scree
   {
     if (!rain->count(time, time_step))
       return;
-    const auto drops       = rain->drops(columns_of_rain());
-    WaterPhase<dim> &phase = water.front();
-    PointSet<dim> &points  = phase.points();
-    std::vector<double> properties(points.stride());
-    std::vector<int> has_cell(drops.size(), 0);
-    for (unsigned int i = 0; i < drops.size(); ++i)
-      if (const auto *cell = grid.fine_cells().own_cell_at(drops[i].location))
-        {
-          const Point<dim> &x = drops[i].location;
-          std::fill(properties.begin(), properties.end(), 0.);
-          fill_entrant({ rain->volume(), x, cell->index, grid.fine_cells().place_in(*cell, x) },
-                       phase,
-                       pressure(cell->index),
-                       properties);
-          const double mass = properties[phase.layout.mass];
-          totals.entered_water_mass += mass;
-          totals.entered_energy -= mass * (forcing.gravity() * (x - Point<dim>()));
-          points.add(cell->in_mesh, x, points.next_id + i, properties);
-          has_cell[i] = 1;
-        }
-    points.next_id += drops.size();
-    points.finish_adding();
+    const auto drops = rain->drops(columns_of_rain());
+    std::vector<Point<dim>> locations;
+    for (const auto &drop : drops)
+      locations.push_back(drop.location);
+    std::vector<int> has_cell = add_points(
+        water.front().points(),
+        water.front().layout,
+        locations,
+        Tensor<1, dim>(),
+        [&](const Entrant &entrant, std::vector<double> &properties) {
+          fill_with_water(entrant, rain->volume(), pressure(entrant.cell), properties, totals);
+        },
+        totals);
     Utilities::MPI::max(has_cell, communicator, has_cell);
     for (unsigned int i = 0; i < drops.size(); ++i)
       if (!has_cell[i])
@@ -487,106 +496,70 @@ namespace scree
 
 
   template <int dim>
-  template <typename Fill>
-  unsigned int Scene<dim>::add_layer(const Inflow<dim> &inflow,
-                                     const unsigned int back,
-                                     PointSet<dim> &points,
-                                     const unsigned int mass_slot,
-                                     const Fill &fill,
-                                     RunBalance<dim> &totals) const
+  template <typename Layout, typename Fill>
+  std::vector<int> Scene<dim>::add_points(PointSet<dim> &points,
+                                          const Layout &layout,
+                                          const std::vector<Point<dim>> &locations,
+                                          const Tensor<1, dim> &velocity,
+                                          const Fill &fill,
+                                          RunBalance<dim> &totals) const
   {
     std::vector<double> properties(points.stride());
-    const Tensor<1, dim> &velocity = inflow.velocity();
-    unsigned int n_points          = 0;
-    for (unsigned int i = 0; i < inflow.places().size(); ++i)
-      {
-        const auto &place  = inflow.places()[i];
-        const Point<dim> x = place.location + inflow.advance_of(back) * inflow.inward();
-        const auto *cell   = grid.fine_cells().own_cell_at(x);
-        if (cell == nullptr)
-          continue;
-        std::fill(properties.begin(), properties.end(), 0.);
-        fill(Entrant{ place.volume, x, cell->index, grid.fine_cells().place_in(*cell, x) }, properties);
-        const double mass = properties[mass_slot];
-        totals.entered_momentum += mass * velocity;
-        totals.entered_energy += mass * (0.5 * velocity.norm_square() - forcing.gravity() * (x - Point<dim>()));
-        points.add(cell->in_mesh, x, points.next_id + i, properties);
-        ++n_points;
-      }
-    points.next_id += inflow.places().size();
+    std::vector<int> is_here(locations.size(), 0);
+    for (unsigned int i = 0; i < locations.size(); ++i)
+      if (const auto *cell = grid.fine_cells().own_cell_at(locations[i]))
+        {
+          const Point<dim> &x = locations[i];
+          std::fill(properties.begin(), properties.end(), 0.);
+          fill(Entrant{ i, x, cell->index, grid.fine_cells().place_in(*cell, x) }, properties);
+          std::copy_n(&velocity[0], dim, properties.begin() + layout.velocity);
+          const double mass = properties[layout.mass];
+          totals.entered_momentum += mass * velocity;
+          totals.entered_energy += mass * (0.5 * velocity.norm_square() - forcing.gravity() * (x - Point<dim>()));
+          points.add(cell->in_mesh, x, points.next_id + i, properties);
+          is_here[i] = 1;
+        }
+    points.next_id += locations.size();
     points.finish_adding();
-    return n_points;
+    return is_here;
   }
 
 
   template <int dim>
-  unsigned int Scene<dim>::add_soil(const Inflow<dim> &inflow, const unsigned int back, RunBalance<dim> &totals)
+  std::vector<int>
+  Scene<dim>::add_soil(const Inflow<dim> &inflow, const std::vector<Point<dim>> &locations, RunBalance<dim> &totals)
   {
     SoilBody<dim> &body =
         *std::find_if(bodies.begin(), bodies.end(), [&](const SoilBody<dim> &one) { return one.name == inflow.body; });
-    const auto &layout = body.layout;
+    const auto &layout            = body.layout;
+    const BodyParameters &entries = *parameters.find_body(body.name);
     std::unique_ptr<PlaceVariableValues<dim>> of_place; // what the law has from the place; null: nothing
     if (const PlaceVariable variable = body.material->place_variable; !variable.expression.empty())
-      of_place = std::make_unique<PlaceVariableValues<dim>>(variable,
-                                                            parameters.find_body(body.name)->material.path(body.name));
-    return add_layer(
-        inflow,
-        back,
+      of_place = std::make_unique<PlaceVariableValues<dim>>(variable, entries.material.path(body.name));
+    double stress[n_symmetric_components<dim>] = {};
+    if (entries.initial_state.is_isotropic())
+      std::fill_n(stress, 3, -entries.initial_state.pressure);
+    return add_points(
         body.points,
-        layout.mass,
+        layout,
+        locations,
+        inflow.velocity(),
         [&](const Entrant &entrant, std::vector<double> &properties) {
+          const double volume       = inflow.places()[entrant.number].volume;
+          properties[layout.mass]   = body.density * volume;
+          properties[layout.volume] = volume;
+          if (layout.has_start)
+            std::copy_n(&entrant.location[0], dim, properties.begin() + layout.start);
+          double *variables = properties.data() + layout.internal_variables;
+          double *strain    = properties.data() + layout.left_cauchy_green;
           if (of_place)
-            of_place->set(entrant.location, 0., properties.data() + layout.internal_variables);
-          fill_entrant(entrant, body, properties);
-          std::copy_n(&inflow.velocity()[0], dim, properties.begin() + layout.velocity);
+            of_place->set(entrant.location, 0., variables);
+          body.material->initialise(stress, strain, properties.data() + layout.stress, variables);
           ++totals.n_entered;
           totals.entered_mass += properties[layout.mass];
-          totals.entered_energy +=
-              entrant.volume * body.material->elastic_energy(properties.data() + layout.left_cauchy_green);
+          totals.entered_energy += volume * body.material->elastic_energy(strain);
         },
         totals);
-  }
-
-
-  template <int dim>
-  unsigned int Scene<dim>::add_water(const Inflow<dim> &inflow,
-                                     const unsigned int back,
-                                     const PressureOfCell<dim> &pressure,
-                                     RunBalance<dim> &totals)
-  {
-    WaterPhase<dim> &phase = water.front();
-    return add_layer(
-        inflow,
-        back,
-        phase.points(),
-        phase.layout.mass,
-        [&](Entrant entrant, std::vector<double> &properties) {
-          entrant.volume *= inflow.water_share;
-          fill_entrant(entrant, phase, pressure(entrant.cell), properties);
-          std::copy_n(&inflow.velocity()[0], dim, properties.begin() + phase.layout.velocity);
-          totals.entered_water_mass += properties[phase.layout.mass];
-        },
-        totals);
-  }
-
-
-  template <int dim>
-  void
-  Scene<dim>::fill_entrant(const Entrant &entrant, const SoilBody<dim> &body, std::vector<double> &properties) const
-  {
-    const auto &layout                  = body.layout;
-    const InitialStateParameters &state = parameters.find_body(body.name)->initial_state;
-    properties[layout.mass]             = body.density * entrant.volume;
-    properties[layout.volume]           = entrant.volume;
-    if (layout.has_start)
-      std::copy_n(&entrant.location[0], dim, properties.begin() + layout.start);
-    double stress[n_symmetric_components<dim>] = {};
-    if (state.stress_kind() == InitialStress::isotropic)
-      std::fill_n(stress, 3, -state.pressure);
-    body.material->initialise(stress,
-                              properties.data() + layout.left_cauchy_green,
-                              properties.data() + layout.stress,
-                              properties.data() + layout.internal_variables);
   }
 
 
@@ -622,7 +595,7 @@ namespace scree
   template <int dim>
   void Scene<dim>::fill()
   {
-    if (parameters.has_water && water_at_start.seepage_start.is_steady)
+    if (parameters.has_water && water_at_start.is_steady)
       {
         seepage = solve_seepage(seepage_survey(), forcing.gravity().norm());
         water_at_start.set_table<dim>(seepage);
@@ -804,10 +777,9 @@ namespace scree
         const std::string modulus           = entries.material.modulus_text(body.name);
         const double k0                     = entries.k0();
         set_place_values(body, entries.material.path(body.name), soil, grid);
-        if (state.stress_kind() != InitialStress::k0)
+        if (!state.is_k0())
           {
-            set_isotropic_stress(
-                body, state.stress_kind() == InitialStress::isotropic ? state.pressure : 0., modulus, communicator);
+            set_isotropic_stress(body, state.is_isotropic() ? state.pressure : 0., modulus, communicator);
             continue;
           }
         if (!overburden)
@@ -818,8 +790,7 @@ namespace scree
     if (seepage)
       for (auto &part : water)
         set_seepage_pressure(part, *seepage, seepage_survey(), forcing.gravity().norm(), communicator);
-    else if (!water.empty() && parameters.water.initial_pressure_kind() == InitialPressure::hydrostatic &&
-             forcing.gravity().norm() > 0)
+    else if (!water.empty() && parameters.water.starts_hydrostatic() && forcing.gravity().norm() > 0)
       {
         Overburden<dim> water_above(
             grid, water_layers<dim>(parameters.water, soil), forcing.gravity(), grid.cell_size() / 4);
@@ -834,9 +805,7 @@ namespace scree
   Speeds Scene<dim>::speeds() const
   {
     Speeds largest;
-    const auto include_point = [&](const double *velocity) {
-      largest.include_point(Tensor<1, dim>(make_array_view(velocity, velocity + dim)).norm());
-    };
+    const auto include_point = [&](const double *velocity) { largest.include_point(vector_of<dim>(velocity).norm()); };
     for (const auto &body : bodies)
       for_each_point(body.points, [&](const auto &point) {
         const double *stress            = point.properties + body.layout.stress;

@@ -18,6 +18,56 @@ namespace scree
   }
 
 
+  namespace
+  {
+    template <std::size_t dim>
+    bool is_inside(const std::array<double, dim> &place)
+    {
+      bool inside = true;
+      for (const double along : place)
+        inside = inside && along >= 0. && along <= 1.;
+      return inside;
+    }
+  } // namespace
+
+
+  template <int dim>
+  unsigned int CellTable<dim>::neighbour(const unsigned int number, const unsigned int face)
+  {
+    const auto find = [&]() -> unsigned int {
+      const Iterator cell = cells[number].iterator;
+      if (cell->at_boundary(face))
+        return none;
+      const auto other = cell->neighbor(face);
+      if (!other->is_active() || other->is_artificial() || use_of(other) == CellUse::outside)
+        return none;
+      return number_of(other);
+    };
+    if (cells[number].neighbours[face] == unknown)
+      {
+        const unsigned int found       = find();
+        cells[number].neighbours[face] = found; // the table may have moved
+      }
+    return cells[number].neighbours[face];
+  }
+
+
+  template <int dim>
+  unsigned int CellTable<dim>::neighbour_with(const unsigned int number, const Point<dim> &x)
+  {
+    const auto place  = cells[number].template place_of<double>(x);
+    unsigned int cell = number;
+    for (unsigned int a = 0; a < dim; ++a)
+      if (place[a] < 0. || place[a] > 1.)
+        if (cell = neighbour(cell, 2 * a + (place[a] > 1. ? 1 : 0)); cell == none)
+          return none;
+    return is_inside(cells[cell].template place_of<double>(x)) ? cell : none;
+  }
+
+  template class CellTable<2>;
+  template class CellTable<3>;
+
+
   /// Cell by cell.
   template <int dim>
   struct PointSet<dim>::Lifted
@@ -36,7 +86,6 @@ namespace scree
       : mesh(triangulation)
       , n_properties(n_properties)
       , particle_handler(triangulation, mapping, n_properties)
-      , lists(particle_handler, table)
       , refinement_signal(triangulation.signals.any_change.connect([this] { table.clear(); }))
       , repartition_signal(triangulation.signals.post_distributed_repartition.connect([this] { table.clear(); }))
   {
@@ -76,8 +125,6 @@ namespace scree
   template <int dim>
   bool PointSet<dim>::set_places()
   {
-    const auto &cell_list = lists.cells();
-    const auto &filled    = lists.filled_cells();
     leavers.clear();
     if (cell_list.empty())
       return true;
@@ -122,9 +169,9 @@ namespace scree
   template <int dim>
   void PointSet<dim>::take_out(const Leaver &leaver, Record &record)
   {
-    const CellPoints<dim> &points = lists.cells()[leaver.from];
-    const unsigned int in_table   = lists.filled_cells()[leaver.from].in_table;
-    const auto of_handler         = particle_handler.particles_in_cell(table[in_table].iterator);
+    const CellPoints<dim> &points = cell_list[leaver.from];
+    FilledCell &cell              = filled[leaver.from];
+    const auto of_handler         = particle_handler.particles_in_cell(table[cell.in_table].iterator);
     const auto point              = std::next(of_handler.begin(), leaver.point);
     Assert(point->get_local_index() == points.slots[leaver.point], ExcInternalError("The lists differ."));
 
@@ -132,52 +179,41 @@ namespace scree
     record.properties.assign(properties, properties + n_properties);
     record.location = point->get_location();
     record.id       = point->get_id();
-    // In both lists the last point of the cell takes the number of one that is removed.
+    // In both lists the last point of the cell takes the number of one that is removed; cells() keeps it until then.
     particle_handler.remove_particle(point);
-    lists.remove(leaver.from, leaver.point);
+    unsigned int *own = slots.data() + (points.slots - slots.data());
+    own[leaver.point] = own[--cell.n_points];
   }
 
 
   template <int dim>
-  std::vector<PointRecord<dim>> PointSet<dim>::exchange()
+  void PointSet<dim>::exchange()
   {
     // Points go to ghost cells only, so that the ghost layer gives the partners. deal.II's some_to_some() asks first,
     // which takes 60 microseconds more a step on two ranks.
     const auto &neighbours      = dynamic_cast<const parallel::TriangulationBase<dim> &>(mesh).ghost_owners();
     const MPI_Comm communicator = communicator_of(mesh);
     constexpr int tag           = 1;
-    std::vector<Record> immigrants;
     std::vector<std::vector<char>> messages;
     std::vector<MPI_Request> requests(neighbours.size());
     for (const unsigned int rank : neighbours)
       {
-        messages.push_back(Utilities::pack(emigrants[rank], /*allow_compression=*/false));
-        const int error = MPI_Isend(messages.back().data(),
-                                    messages.back().size(),
-                                    MPI_CHAR,
-                                    rank,
-                                    tag,
-                                    communicator,
-                                    &requests[messages.size() - 1]);
-        AssertThrowMPI(error);
+        const auto &message = messages.emplace_back(Utilities::pack(emigrants[rank], /*allow_compression=*/false));
+        MPI_Isend(message.data(), message.size(), MPI_CHAR, rank, tag, communicator, &requests[messages.size() - 1]);
       }
     for (const unsigned int rank : neighbours)
       {
         MPI_Status status;
-        int size, error = MPI_Probe(rank, tag, communicator, &status);
-        AssertThrowMPI(error);
-        error = MPI_Get_count(&status, MPI_CHAR, &size);
-        AssertThrowMPI(error);
+        int size;
+        MPI_Probe(rank, tag, communicator, &status);
+        MPI_Get_count(&status, MPI_CHAR, &size);
         std::vector<char> message(size);
-        error = MPI_Recv(message.data(), size, MPI_CHAR, rank, tag, communicator, MPI_STATUS_IGNORE);
-        AssertThrowMPI(error);
-        for (Record &record : Utilities::unpack<std::vector<Record>>(message, /*allow_compression=*/false))
-          immigrants.push_back(std::move(record));
+        MPI_Recv(message.data(), size, MPI_CHAR, rank, tag, communicator, MPI_STATUS_IGNORE);
+        for (const Record &one : Utilities::unpack<std::vector<Record>>(message, /*allow_compression=*/false))
+          insert(table.number_of(mesh.create_cell_iterator(CellId(one.cell))), one.location, one.id, one.properties);
       }
-    const int error = MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
-    AssertThrowMPI(error);
+    MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
     emigrants.clear();
-    return immigrants;
   }
 
 
@@ -185,15 +221,11 @@ namespace scree
   void PointSet<dim>::hand_over(const Disorder disorder)
   {
     if (disorder != Disorder::none)
-      for (const Record &record : exchange())
-        insert(table.number_of(mesh.create_cell_iterator(CellId(record.cell))), record);
+      exchange();
     if (disorder == Disorder::far)
-      {
-        sort();
-        return;
-      }
-    if (!leavers.empty() || lists.has_entrants())
-      lists.update();
+      return sort();
+    if (!leavers.empty() || !entrants.empty())
+      update_lists();
     if (disorder == Disorder::scattered)
       {
         lift();
@@ -210,13 +242,11 @@ namespace scree
     lifted->locations.reserve(count);
     lifted->ids.reserve(count);
     lifted->properties.reserve(count * n_properties);
-    const auto &pool      = particle_handler.get_property_pool();
-    const auto &cell_list = lists.cells();
+    const auto &pool = particle_handler.get_property_pool();
     for (unsigned int c = 0; c < cell_list.size(); ++c)
       {
         const CellPoints<dim> &points = cell_list[c];
-        lifted->cells.emplace_back(table[lists.filled_cells()[c].in_table].iterator->id().template to_binary<dim>(),
-                                   points.n_points);
+        lifted->cells.emplace_back(table[filled[c].in_table].iterator->id().template to_binary<dim>(), points.n_points);
         for (unsigned int p = 0; p < points.n_points; ++p)
           {
             const double *properties = points.properties_of(p);
@@ -259,6 +289,99 @@ namespace scree
     particle_handler.update_cached_numbers();
     n_moved = 0;
     list_all_cells();
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::list_all_cells()
+  {
+    lose_points_outside();
+    filled.clear();
+    slots.clear();
+    entrants.clear();
+    for (auto point = particle_handler.begin(); point != particle_handler.end();)
+      {
+        const CellIterator cell     = point->get_surrounding_cell();
+        const unsigned int in_table = table.number_of(cell);
+        filled.push_back({ table[in_table].number, in_table, particle_handler.n_particles_in_cell(cell) });
+        point = particle_handler.particles_in_cell(cell).end();
+      }
+    std::sort(
+        filled.begin(), filled.end(), [](const FilledCell &a, const FilledCell &b) { return a.number < b.number; });
+    for (const FilledCell &cell : filled)
+      for (const auto &point : particle_handler.particles_in_cell(table[cell.in_table].iterator))
+        slots.push_back(point.get_local_index());
+    point_to_records();
+    at_edge = !is_in_inner_cells();
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::update_lists()
+  {
+    std::sort(entrants.begin(), entrants.end());
+    new_filled.clear();
+    new_slots.clear();
+    const Entrant *entrant = entrants.data(), *end = entrant + entrants.size();
+    for (unsigned int c = 0; c < filled.size();)
+      {
+        // Cells that no point has left or entered are copied together.
+        unsigned int changed = c;
+        while (changed < filled.size() && filled[changed].n_points == cell_list[changed].n_points &&
+               (entrant == end || filled[changed].number < entrant->number))
+          ++changed;
+        if (changed > c)
+          {
+            const auto &last = cell_list[changed - 1];
+            new_slots.insert(new_slots.end(), cell_list[c].slots, last.slots + last.n_points);
+            new_filled.insert(new_filled.end(), filled.begin() + c, filled.begin() + changed);
+            c = changed;
+            continue;
+          }
+        while (entrant != end && entrant->number < filled[c].number)
+          entrant = append_cell({ entrant->number, entrant->in_table, 0 }, nullptr, entrant, end);
+        entrant = append_cell(filled[c], cell_list[c].slots, entrant, end);
+        ++c;
+      }
+    while (entrant != end)
+      entrant = append_cell({ entrant->number, entrant->in_table, 0 }, nullptr, entrant, end);
+    filled.swap(new_filled);
+    slots.swap(new_slots);
+    entrants.clear();
+    point_to_records();
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::point_to_records()
+  {
+    cell_list.resize(filled.size());
+    const_cell_list.resize(filled.size());
+    slots.insert(slots.end(), points_ahead, 0);
+    if (filled.empty())
+      return;
+
+    // The pool stores records slot by slot and hands out references to them: writing through them saves a call per
+    // point.
+    auto &pool = particle_handler.get_property_pool();
+#if DEAL_II_VERSION_GTE(9, 6, 0)
+    Point<dim> *locations = &pool.get_location(0);
+#else
+    // Before 9.6 only constant ones.
+    Point<dim> *locations = const_cast<Point<dim> *>(&pool.get_location(0));
+#endif
+    const Point<dim> *places    = &pool.get_reference_location(0);
+    double *properties          = pool.get_properties(0).data();
+    const unsigned int stride   = pool.n_properties_per_slot();
+    const unsigned int *of_cell = slots.data();
+    for (unsigned int c = 0; c < filled.size(); ++c)
+      {
+        const FilledCell &cell   = filled[c];
+        const unsigned int index = table[cell.in_table].index;
+        cell_list[c]             = { index, cell.n_points, of_cell, stride, properties, locations, places };
+        const_cell_list[c]       = { index, cell.n_points, of_cell, stride, properties, locations, places };
+        of_cell += cell.n_points;
+      }
   }
 
 

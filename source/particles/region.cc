@@ -164,10 +164,14 @@ namespace scree
           Point<dim> corner = cell->vertex(0);
           for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
             corner[a] += width * (rest % n);
-          const CubePart<dim> part = part_of_cube(corner, width);
-          if (part.volume > 0)
-            (part.filled < Seed<dim>::least_filled * cube ? slivers : seeds)
-                .push_back({ cell, part.location, part.volume, part.filled / cube, part.stays });
+          Seed<dim> seed = part_of_cube(corner, width);
+          seed.cell      = cell;
+          if (seed.volume > 0)
+            {
+              auto &list = seed.filled < Seed<dim>::least_filled * cube ? slivers : seeds;
+              seed.filled /= cube;
+              list.push_back(seed);
+            }
         }
       for (const Seed<dim> &sliver : slivers)
         {

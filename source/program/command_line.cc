@@ -368,27 +368,6 @@ namespace scree
 
     constexpr int exit_code_of_a_stop = 3;
 
-    /// Calls `act` with a number of the type of the case's dimension; completes its errors.
-    template <typename Function>
-    void in_its_dimension(Parameters &parameters, const Function &act)
-    {
-      try
-        {
-          if (parameters.dimension == 2)
-            act(std::integral_constant<int, 2>());
-          else
-            act(std::integral_constant<int, 3>());
-        }
-      catch (const EntryError &error)
-        {
-          throw parameters.error(error);
-        }
-      catch (const ValueError &error)
-        {
-          throw ValueError(parameters.error(EntryError(error.what())).what());
-        }
-    }
-
     void print_parameters(const Arguments &arguments, std::ostream &out)
     {
       Parameters parameters = arguments.case_file.empty() ? Parameters() : Parameters(arguments.case_file);
@@ -403,14 +382,26 @@ namespace scree
     }
 
 
-    /// Reads the case, and calls `run` with its dimension and entries; returns the exit code of the run's end.
+    /// Reads the case, and calls `run` with its dimension and entries; completes its errors. Returns the exit code of
+    /// the run's end.
     template <typename Run>
     int run_case(const Arguments &arguments, const Run &run)
     {
       Parameters parameters(arguments.case_file);
-      End end = End::complete;
-      in_its_dimension(parameters, [&](const auto dim) { end = run(dim, parameters); });
-      return end == End::stopped ? exit_code_of_a_stop : 0;
+      try
+        {
+          const End end = parameters.dimension == 2 ? run(std::integral_constant<int, 2>(), parameters)
+                                                    : run(std::integral_constant<int, 3>(), parameters);
+          return end == End::stopped ? exit_code_of_a_stop : 0;
+        }
+      catch (const EntryError &error)
+        {
+          throw parameters.error(error);
+        }
+      catch (const ValueError &error)
+        {
+          throw ValueError(parameters.error(EntryError(error.what())).what());
+        }
     }
 
 
@@ -472,14 +463,10 @@ namespace scree
         if (rank == 0)
           std::cerr << "scree: " + std::string(error.what()) + "\n";
       }
-    catch (const dealii::ExceptionBase &error)
-      {
-        tell(plain_text(error));
-        ending.others_may_wait = n_ranks > 1;
-      }
     catch (const std::exception &error)
       {
-        tell(error.what());
+        const auto *of_deal_ii = dynamic_cast<const dealii::ExceptionBase *>(&error);
+        tell(of_deal_ii ? plain_text(*of_deal_ii) : error.what());
         ending.others_may_wait = n_ranks > 1;
       }
     return ending;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/run/case_record.h>
+#include <scree/run/results.h>
 #include <scree/version.h>
 
 #include <unistd.h>
@@ -59,14 +59,6 @@ namespace scree
       return kilobytes;
     }
 
-    /// On all ranks.
-    template <int dim>
-    unsigned long long count(const PointSet<dim> &points, const MPI_Comm communicator)
-    {
-      const unsigned long long n = points.n_points();
-      return Utilities::MPI::sum(n, communicator);
-    }
-
     /// "1 rank", "2 ranks"
     std::string counted(const unsigned long long n, const std::string &what)
     {
@@ -88,21 +80,19 @@ namespace scree
 
     /// ", 38480 soil points, 1200 water points"; of several bodies also each one's.
     template <int dim>
-    std::string points_text(const std::list<SoilBody<dim>> &bodies,
-                            const std::list<WaterPhase<dim>> &water,
-                            const MPI_Comm communicator)
+    std::string points_text(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water)
     {
       std::string of_each;
       unsigned long long n_soil = 0, n_water = 0;
       for (const auto &body : bodies)
         {
-          const unsigned long long n = count(body.points, communicator);
+          const unsigned long long n = body.points.handler().n_global_particles();
           of_each += (of_each.empty() ? " (" : ", ") + body.name + ' ' + std::to_string(n);
           n_soil += n;
         }
       for (const auto &part : water)
         if (part.carrier() == nullptr)
-          n_water += count(part.points(), communicator);
+          n_water += part.points().handler().n_global_particles();
       return (bodies.empty() ? "" : ", " + counted(n_soil, "soil point")) + (bodies.size() > 1 ? of_each + ')' : "") +
              (n_water > 0 ? ", " + counted(n_water, "water point") : "");
     }
@@ -126,14 +116,15 @@ namespace scree
     /// Logs the five lines of the head: program, commit, ranks and date; case and run folder; model and points; mesh;
     /// memory, MB of all ranks. Records libraries, compiler and its flags, process and host. Collective.
     template <int dim>
-    void log_header(const Parameters &parameters, const Scene<dim> &scene, RunFolder &folder)
+    void log_header(const Scene<dim> &scene, RunFolder &folder)
     {
-      const auto &grid            = scene.grid;
-      const MPI_Comm communicator = grid.communicator();
-      const double expected_bytes = scene.expected_memory.bytes(Utilities::MPI::n_mpi_processes(communicator));
+      const Parameters &parameters = scene.parameters;
+      const auto &grid             = scene.grid;
+      const MPI_Comm communicator  = grid.communicator();
+      const double expected_bytes  = scene.expected_memory.bytes(Utilities::MPI::n_mpi_processes(communicator));
       folder.log(header_line(communicator));
       folder.log("Case        " + parameters.case_file + " -> " + parameters.output_directory);
-      folder.log("Model       " + model_text(parameters) + points_text(scene.bodies, scene.water, communicator));
+      folder.log("Model       " + model_text(parameters) + points_text(scene.bodies, scene.water));
       const double n_cells = Utilities::MPI::sum(double(grid.fine_cells().n_owned()), communicator);
       const double n_all   = grid.n_cells_of_box();
       folder.log("Mesh        " + number_text(n_cells) + " cells of " + number_text(grid.cell_size()) + " m" +
@@ -182,9 +173,10 @@ namespace scree
 
 
   template <int dim>
-  void log_case(const Parameters &parameters, const Scene<dim> &scene, RunFolder &folder, const MPI_Comm communicator)
+  void log_case(const Scene<dim> &scene, RunFolder &folder)
   {
-    log_header(parameters, scene, folder);
+    const Parameters &parameters = scene.parameters;
+    log_header(scene, folder);
     if (const Point<2> &origin = parameters.bed.map_origin; origin != Point<2>())
       folder.record(
           "Local origin: x = 0, y = 0 is " + number_text(origin) +
@@ -200,13 +192,17 @@ namespace scree
     if (scene.ground)
       log_remark(folder, scene.ground->remark());
     if (scene.bed)
-      log_thin_bed(*scene.bed, folder, communicator);
+      log_thin_bed(*scene.bed, folder, scene.grid.communicator());
     if (const std::string forces = scene.forcing.text(); !forces.empty())
       folder.record(forces);
     if (scene.seepage)
       folder.log(scene.seepage->report.text(dim));
-    for (const std::string &text : scene.texts_of_inflows())
-      folder.record(text);
+    for (const Inflow<dim> &inflow : scene.inflows)
+      folder.record("Inflow " + inflow.name + ": " + number_text(inflow.area()) + (dim == 2 ? " m" : " m^2") +
+                    " are open; " + std::to_string(inflow.places().size()) + " points a layer of " + inflow.body);
+    if (scene.rain)
+      folder.record("Rain: on " + number_text(scene.rain->area()) + (dim == 2 ? " m" : " m^2") + ", in drops of " +
+                    number_text(scene.rain->volume()) + (dim == 2 ? " m^2" : " m^3"));
     if (parameters.water.fringe > 0.)
       folder.log(
           "Water: suction is too small in the uppermost cell of the soil, and cut slopes fail too early. Where the "
@@ -218,15 +214,6 @@ namespace scree
       folder.log("Rain: on deformable soil up to 28 % more water enters than by Darcy's law, if the rate exceeds the "
                  "conductivity. Compare with a body of Material = rigid.");
   }
-
-
-  void log_peak_memory(RunFolder &folder, const MPI_Comm communicator)
-  {
-    folder.record("Largest memory: " + megabytes(memory().VmHWM, communicator) + " (all ranks)");
-  }
-
-  template decltype(log_case<2>) log_case<2>;
-  template decltype(log_case<3>) log_case<3>;
 
 
   namespace
@@ -268,9 +255,9 @@ namespace scree
     std::string stress_text(const BodyParameters &body)
     {
       const InitialStateParameters &state = body.initial_state;
-      if (state.stress_kind() == InitialStress::k0)
+      if (state.is_k0())
         return "stress by weight, K0 = " + number_text(body.k0());
-      if (state.stress_kind() == InitialStress::isotropic)
+      if (state.is_isotropic())
         return "isotropic stress " + number_text(state.pressure) + " Pa";
       return "no stress (\"Type = none\" in subsection Initial state)";
     }
@@ -278,10 +265,10 @@ namespace scree
 
 
   template <int dim>
-  void
-  log_released(const Parameters &parameters, const Scene<dim> &scene, RunFolder &folder, const MPI_Comm communicator)
+  void log_released(const Scene<dim> &scene, RunFolder &folder)
   {
-    auto entries = parameters.bodies.begin();
+    const MPI_Comm communicator = scene.grid.communicator();
+    auto entries                = scene.parameters.bodies.begin();
     for (const auto &body : scene.bodies)
       {
         const BodyParameters &of_case = *entries++;
@@ -306,10 +293,10 @@ namespace scree
 
 
   template <int dim>
-  void
-  log_balance(const Scene<dim> &scene, const RunBalance<dim> &totals, RunFolder &folder, const MPI_Comm communicator)
+  void log_end(const Scene<dim> &scene, const RunBalance<dim> &totals, RunFolder &folder)
   {
-    const RunBalance<dim> all = totals.sum_over_ranks(communicator);
+    const MPI_Comm communicator = scene.grid.communicator();
+    const RunBalance<dim> all   = totals.sum_over_ranks(communicator);
     double mass = 0., volume = 0.;
     bool moves = false;
     for (const auto &body : scene.bodies)
@@ -339,10 +326,13 @@ namespace scree
                       kilograms<dim>(density * rain.beside_soil) + "; waiting for a whole drop " +
                       kilograms<dim>(density * rain.waiting));
       }
+    folder.record("Largest memory: " + megabytes(memory().VmHWM, communicator) + " (all ranks)");
   }
 
+  template decltype(log_case<2>) log_case<2>;
+  template decltype(log_case<3>) log_case<3>;
   template decltype(log_released<2>) log_released<2>;
   template decltype(log_released<3>) log_released<3>;
-  template decltype(log_balance<2>) log_balance<2>;
-  template decltype(log_balance<3>) log_balance<3>;
+  template decltype(log_end<2>) log_end<2>;
+  template decltype(log_end<3>) log_end<3>;
 } // namespace scree

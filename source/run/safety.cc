@@ -83,6 +83,52 @@ namespace scree
       }
 
 
+      /// Settles, and searches the factor. Throws EntryError if it is not in the range.
+      End search()
+      {
+        const SafetyParameters &safety = given.safety;
+        folder.log("Safety      " + given.case_file + " -> " + path);
+        folder.log("Rests       where not more than 1 % of the soil is faster than 2e-4 sqrt(gH), during sqrt(H/g)\n"
+                   "Fails       where more than 1 % of the soil has moved by " +
+                   number_text(safety.displacement) + " H, or still moves after " + number_text(safety.longest_trial) +
+                   " sqrt(H/g)");
+        const TrialEnd first = settle();
+        require_entry(first != TrialEnd::fails,
+                      { "Safety", "Lower factor", safety.lower },
+                      "the slope does not settle with its strength divided by half of this. Write a smaller one.");
+        bool has_found = false;
+        try
+          {
+            has_found = first == TrialEnd::rests &&
+                        search_factor(
+                            safety, [&](const double factor) { return try_factor(factor); }, bracket);
+          }
+        catch (const EntryError &) // on all ranks: the factor is not in the range
+          {
+            remove("settled");
+            throw;
+          }
+        remove("settled");
+        if (!has_found)
+          {
+            folder.log("Stopped     " + (bracket.rests > 0. ? "factor so far: " + bracket.text() + "; " : "") +
+                       "safety.csv has the trials so far");
+            return End::stopped;
+          }
+        const int digits = std::max(0, int(std::ceil(-std::log10(safety.tolerance) - 1e-9)));
+        folder.log(formatted("Factor of safety  %.*f (between %.*f and %.*f)",
+                             digits,
+                             0.5 * (bracket.rests + bracket.fails),
+                             digits + 1,
+                             bracket.rests,
+                             digits + 1,
+                             bracket.fails));
+        folder.log("Results     " + path +
+                   ": safety.csv; rests and fails, the trials beside the factor, with solution/points.pvd");
+        return End::complete;
+      }
+
+    private:
       /// From the start of the case to the state that the other trials begin with, without a bound of the displacement.
       TrialEnd settle()
       {
@@ -118,19 +164,6 @@ namespace scree
       }
 
 
-      /// Of those with try_factor().
-      const FactorBracket &bracket_so_far() const
-      {
-        return bracket;
-      }
-
-
-      void log(const std::string &text)
-      {
-        folder.log(text);
-      }
-
-
       /// Removes what only the search needs. Collective.
       void remove(const std::string &name)
       {
@@ -140,7 +173,7 @@ namespace scree
         MPI_Barrier(communicator);
       }
 
-    private:
+
       std::unique_ptr<Parameters> parameters_of_trial(const double factor, const std::string &name)
       {
         auto parameters = std::make_unique<Parameters>(given.case_file);
@@ -202,49 +235,8 @@ namespace scree
   End find_safety(const Parameters &parameters, const MPI_Comm communicator)
   {
     check(parameters);
-    const SafetyParameters &safety = parameters.safety;
-    Parameters(parameters.case_file).reduce_strength(safety.lower); // throws if there is none, before files are touched
-    Trials<dim> trials(parameters, communicator);
-    trials.log("Safety      " + parameters.case_file + " -> " + parameters.output_directory + "/safety");
-    trials.log("Rests       where not more than 1 % of the soil is faster than 2e-4 sqrt(gH), during sqrt(H/g)\n"
-               "Fails       where more than 1 % of the soil has moved by " +
-               number_text(safety.displacement) + " H, or still moves after " + number_text(safety.longest_trial) +
-               " sqrt(H/g)");
-    const TrialEnd first = trials.settle();
-    require_entry(first != TrialEnd::fails,
-                  { "Safety", "Lower factor", safety.lower },
-                  "the slope does not settle with its strength divided by half of this. Write a smaller one.");
-    const FactorBracket &bracket = trials.bracket_so_far();
-    bool has_found               = false;
-    try
-      {
-        has_found = first == TrialEnd::rests &&
-                    search_factor(
-                        safety, [&](const double factor) { return trials.try_factor(factor); }, bracket);
-      }
-    catch (const EntryError &) // on all ranks: the factor is not in the range
-      {
-        trials.remove("settled");
-        throw;
-      }
-    trials.remove("settled");
-    if (!has_found)
-      {
-        trials.log("Stopped     " + (bracket.rests > 0. ? "factor so far: " + bracket.text() + "; " : "") +
-                   "safety.csv has the trials so far");
-        return End::stopped;
-      }
-    const int digits = std::max(0, int(std::ceil(-std::log10(safety.tolerance) - 1e-9)));
-    trials.log(formatted("Factor of safety  %.*f (between %.*f and %.*f)",
-                         digits,
-                         0.5 * (bracket.rests + bracket.fails),
-                         digits + 1,
-                         bracket.rests,
-                         digits + 1,
-                         bracket.fails));
-    trials.log("Results     " + parameters.output_directory +
-               "/safety: safety.csv; rests and fails, the trials beside the factor, with solution/points.pvd");
-    return End::complete;
+    Parameters(parameters.case_file).reduce_strength(parameters.safety.lower); // throws if there is none, before files
+    return Trials<dim>(parameters, communicator).search();
   }
 
   template End find_safety<2>(const Parameters &, const MPI_Comm);

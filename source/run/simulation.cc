@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/case/case_checks.h>
 #include <scree/run/simulation.h>
+#include <scree/tensor/invariants.h>
 
 namespace scree
 {
@@ -8,45 +9,26 @@ namespace scree
 
   namespace
   {
-    /// The column of the progress table that says where a scene is: the front of the soil, or of the water without
-    /// soil; on a bed in space, where no axis is that of the motion, the largest speed.
+    /// Heading of the column of the progress table that says where a scene is, and its value now: the front of the
+    /// soil, or of the water without soil; on a bed in space, where no axis is that of the motion, the largest speed.
+    /// Collective.
     template <int dim>
-    class ShownMotion
+    std::pair<std::string, double> shown_motion(const Scene<dim> &scene)
     {
-    public:
-      /// The scene is kept by reference.
-      explicit ShownMotion(const Scene<dim> &scene)
-          : scene(scene)
-          , shows_speed(dim == 3 && scene.bed)
-      {
-      }
-
-      /// Heading of the column, with the unit.
-      std::string heading() const
-      {
-        return shows_speed ? "fastest (m/s)" : scene.bodies.empty() ? "water front 90 % (m)" : "front 90 % (m)";
-      }
-
-      /// Value of the column. Collective.
-      double value() const
-      {
-        constexpr double part_behind_front = 0.90; // of the mass
-        if (!shows_speed)
-          return scene.bodies.empty() ? mass_percentiles(scene.water, scene.grid, { part_behind_front })[0]
-                                      : mass_percentiles(scene.bodies, scene.grid, { part_behind_front })[0];
-        double largest  = 0.;
-        const auto look = [&](const auto &phase, const auto &point) {
-          largest = std::max(largest, vector_of<dim>(point.properties + phase.layout.velocity).norm());
-        };
-        for_each_moving_point(scene.bodies, look);
-        for_each_moving_point(scene.water, look);
-        return Utilities::MPI::max(largest, scene.grid.communicator());
-      }
-
-    private:
-      const Scene<dim> &scene;
-      const bool shows_speed; // or a front
-    };
+      const std::vector<double> part_behind_front{ 0.90 }; // of the mass
+      if (dim == 2 || !scene.bed)
+        return scene.bodies.empty()
+                   ? std::make_pair("water front 90 % (m)",
+                                    mass_percentiles(scene.water, scene.grid, part_behind_front)[0])
+                   : std::make_pair("front 90 % (m)", mass_percentiles(scene.bodies, scene.grid, part_behind_front)[0]);
+      double largest  = 0.;
+      const auto look = [&](const auto &phase, const auto &point) {
+        largest = std::max(largest, vector_of<dim>(point.properties + phase.layout.velocity).norm());
+      };
+      for_each_moving_point(scene.bodies, look);
+      for_each_moving_point(scene.water, look);
+      return { "fastest (m/s)", Utilities::MPI::max(largest, scene.grid.communicator()) };
+    }
   } // namespace
 
 
@@ -55,12 +37,12 @@ namespace scree
   {
     scene.fill();
     repartition();
-    control.measure_speeds();
-    scene.require_steps(stable_step(), control.speeds_of_points());
+    measure_speeds();
+    scene.require_steps(stable_step(), speeds);
     folder.remove_old_results(); // not before the input has proved good
     record_case(parameters, folder);
-    log_case(parameters, scene, folder, communicator);
-    log_released(parameters, scene, folder, communicator);
+    log_case(scene, folder);
+    log_released(scene, folder);
     for (const std::string &remark : remarks_on(parameters, scene.bodies, communicator))
       folder.log(remark);
     if (parameters.settling.maximum_time > 0)
@@ -89,10 +71,10 @@ namespace scree
       totals = RunBalance<dim>(scene.obstacles.size()); // The writer holds the sums.
     reinit();
     scheme->set_ground_tractions(ground_tractions);
-    adaptation.look_at_points();
+    points_at_edge = are_points_at_edge() || points_at_edge;
     output_times.begin(clock.time());
     record_case(parameters, folder);
-    log_case(parameters, scene, folder, communicator);
+    log_case(scene, folder);
     results.cut();
     folder.log("Resumed at t = " + number_text(clock.time()) + " s, step " + std::to_string(clock.step()) + ", from " +
                checkpoint.folder + " of " + checkpoint.manifest.program + '.');
@@ -106,19 +88,18 @@ namespace scree
   {
     timer.reset(); // Only the steps' time is reported.
     stop.listen();
-    const ShownMotion<dim> motion(scene);
-    progress = std::make_unique<Progress>(folder, clock.time(), parameters.end_time, motion.heading());
+    progress = std::make_unique<Progress>(folder, clock.time(), parameters.end_time, shown_motion(scene).first);
     if (start == Start::fresh && is_released) // A resumed run has reported its first state, also that at t = 0.
       report();
     const double updates_before = point_updates;
     const double first_step     = stable_step();
     try
       {
-        while (!is_at_end() && control.stop_reason() == StopReason::none)
+        while (!is_at_end() && reason == StopReason::none)
           {
             const double largest_step = stable_step();
-            control.require_stable_step(largest_step, first_step);
-            progress->count(control.limit(), control.part_left());
+            require_stable_step(largest_step, first_step);
+            progress->count(clock.bounds(scene.grid.cell_size(), speeds.wave, speeds.points));
             step(largest_step, output_times.next(largest_step));
             report();
             if (progress_is_due || is_at_end())
@@ -126,7 +107,7 @@ namespace scree
                   clock.time(),
                   clock.step(),
                   last_time_step,
-                  motion.value(),
+                  shown_motion(scene).second,
                   PointSums<dim>(scene.bodies, scene.water, scene.forcing.gravity(), communicator).kinetic);
           }
       }
@@ -151,7 +132,7 @@ namespace scree
       {
         write_row();
         folder.log(
-            "Stopped while settling, by " + text_of(control.stop_reason()) +
+            "Stopped while settling, by " + text_of(reason) +
             ". There is no checkpoint, as nothing can go on from a state before the release: run the case again. "
             "The row at t = 0 is of the soil on its way to rest.");
         return;
@@ -161,20 +142,14 @@ namespace scree
     if (results.step_of_last_row() != clock.step())
       write_row();
     folder.log("Stopped at t = " + number_text(clock.time()) + " s, step " + std::to_string(clock.step()) + ", by " +
-               text_of(control.stop_reason()) + ". A checkpoint is written: --resume goes on from here.");
+               text_of(reason) + ". A checkpoint is written: --resume goes on from here.");
   }
 
 
   template <int dim>
   void Simulation<dim>::advance(const double time_step)
   {
-    adaptation.follow_points(time_step, [this] {
-      // By numbers of points: on a new mesh no cell has been measured.
-      if (partition.is_worth_changing_with_mesh())
-        partition.repartition([this] { reinit(); });
-      else
-        reinit();
-    });
+    follow_points(time_step);
     repartition();
     for ([[maybe_unused]] const PointSet<dim> *points : point_sets())
       Assert(points->is_in_inner_cells(), ExcMessage("A point lies beside cells without nodes."));
@@ -207,7 +182,7 @@ namespace scree
     totals.material.add(step.material);
     last_update = step.material;
     point_updates += step.n_updates;
-    account_for_lost_points(scene, totals, clock.time());
+    account_for_lost_points();
     if (is_released)
       end_step(time_step);
   }
@@ -229,14 +204,13 @@ namespace scree
         }
     }
     partition.finish(Work::to_points);
-    control.agree_on(largest);
+    agree_on(largest);
     partition.resume();
-    control.require_stable_speed(time_step);
+    require_stable_speed(time_step);
     const TimedPart part(timer, TimerSection::sort);
     progress_is_due = largest[3] > 0.;
-    if (largest[2] > 0.)
-      adaptation.set_points_at_edge();
-    bool is_sorted = false;
+    points_at_edge  = points_at_edge || largest[2] > 0.;
+    bool is_sorted  = false;
     for (unsigned int s = 0; s < sets.size(); ++s)
       {
         const auto disorder = static_cast<Disorder>(static_cast<int>(largest[first_set + s]));
@@ -244,7 +218,7 @@ namespace scree
         is_sorted = is_sorted || disorder >= Disorder::scattered;
       }
     if (is_sorted && scene.grid.follows_points())
-      adaptation.look_at_points();
+      points_at_edge = are_points_at_edge() || points_at_edge;
     partition.finish(Work::to_nodes);
   }
 
@@ -266,6 +240,486 @@ namespace scree
     totals      = own;
     job.done    = [this, step = clock.step()] { step_of_checkpoint = step; };
     results.write_checkpoint(std::move(job));
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::summarise(const End end, const double point_updates_before)
+  {
+    const double n_updates = Utilities::MPI::sum(point_updates - point_updates_before, communicator);
+    progress->conclude(end == End::complete ? "Finished" : "Stopped", clock.time(), n_updates, communicator);
+    progress->summarise(timer, n_updates, scene.water.empty() ? "point" : "soil or water point", communicator);
+    progress->summarise_ranks(
+        seconds_of(timer, TimerSection::waiting), partition.imbalance(), partition.n_repartitions(), communicator);
+    if (scene.grid.follows_points())
+      folder.record("fine cells at the end: " +
+                    number_text(Utilities::MPI::sum(double(scene.grid.fine_cells().n_owned()), communicator)) +
+                    "; they followed the points " + std::to_string(n_refinements) + " times, which took " +
+                    number_text(seconds_of(timer, TimerSection::repartition)) + " s");
+    log_end(scene, totals, folder);
+    results.complete();
+  }
+
+
+  namespace
+  {
+    const std::string remedy_for_instability =
+        "Remedies: a smaller 'Courant number' in subsection Time step, 'F-bar = modified' in subsection Stabilisation.";
+
+    /// What and where the fastest point of this rank is, its speed beside, m/s; "" and 0 without points.
+    template <int dim>
+    std::pair<double, std::string> fastest_point(const Scene<dim> &scene)
+    {
+      std::pair<double, std::string> fastest{ 0., "" };
+      Point<dim> place;
+      const auto look = [&](const std::string &name, const PointSet<dim> &points, const unsigned int velocity) {
+        for_each_point(points, [&](const auto &point) {
+          const double speed = vector_of<dim>(point.properties + velocity).norm();
+          if (std::isfinite(speed) && speed <= fastest.first)
+            return;
+          place   = point.location;
+          fastest = { std::isfinite(speed) ? speed : std::numeric_limits<double>::infinity(),
+                      "a point of " + name + " at (" + number_text(place) + ") m" };
+        });
+      };
+      for (const auto &body : scene.bodies)
+        look(body.name, body.points, PropertyLayout<dim>::velocity);
+      for (const auto &part : scene.water)
+        if (part.carrier() == nullptr)
+          look("the water", part.points(), part.layout.velocity);
+      if (fastest.second.empty())
+        return fastest;
+      const unsigned int face = nearest_face(scene.grid, place);
+      const double to_wall    = face % 2 == 0 ? place[face / 2] - scene.grid.lower_corner()[face / 2]
+                                              : scene.grid.upper_corner()[face / 2] - place[face / 2];
+      if (to_wall < 2. * scene.grid.cell_size())
+        {
+          const auto of_soil = scene.walls.face_crossed(place);
+          fastest.second += " beside the wall '" + of_soil.first + "'";
+          if (scene.water_walls && of_soil.second != scene.water_walls->face_crossed(place).second)
+            fastest.second += of_soil.second ? ", which is open to soil and closed to water: open it to both"
+                                             : ", which is closed to soil and open to water: close it to both";
+        }
+      return fastest;
+    }
+  } // namespace
+
+
+  template <int dim>
+  void Simulation<dim>::agree_on(std::vector<double> &largest)
+  {
+    const TimedPart part(timer, TimerSection::waiting);
+    for (double &value : largest)
+      if (std::isnan(value))
+        value = std::numeric_limits<double>::infinity();
+    largest.push_back(static_cast<double>(stop.reason()));
+    Utilities::MPI::max(largest, communicator, largest);
+    speeds = { largest[0], largest[1] };
+    scene.include_inflows(speeds);
+    reason = static_cast<StopReason>(largest.back());
+    largest.pop_back();
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::require_stable_step(const double largest_step, const double first_step) const
+  {
+    // A run that gains energy would creep on with ever smaller steps.
+    AssertThrow(largest_step > 1e-3 * first_step,
+                ExcMessage("The motion is unstable: at t = " + Utilities::to_string(clock.time()) +
+                           " s the stable step has fallen to " + Utilities::to_string(largest_step) + " s, from " +
+                           Utilities::to_string(first_step) + " s at the start. " + remedy_for_instability));
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::require_stable_speed(const double time_step) const
+  {
+    if (std::isfinite(speeds.points) && speeds.points * time_step < 2 * scene.grid.cell_size())
+      return;
+    const auto of_ranks = Utilities::MPI::all_gather(communicator, fastest_point(scene));
+    const auto fastest  = *std::max_element(of_ranks.begin(), of_ranks.end());
+    AssertThrow(false,
+                ExcMessage("The motion is unstable at t = " + number_text(clock.time()) + " s: " +
+                           number_text(speeds.points) + " m/s, " + fastest.second + ". " + remedy_for_instability));
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::follow_points(const double time_step)
+  {
+    if (!points_at_edge)
+      return;
+    const TimedPart part(timer, TimerSection::repartition);
+    const Blocks blocks = blocks_ahead(time_step);
+    const auto sets     = scheme->point_sets();
+    for (PointSet<dim> *points : sets)
+      points->lift();
+    scene.grid.refine(blocks, Shares::kept);
+    for (PointSet<dim> *points : sets)
+      {
+        points->put_down();
+        points->costs().reinit(scene.grid.triangulation().n_active_cells());
+      }
+    if (partition.is_worth_changing_with_mesh()) // By numbers of points: on a new mesh no cell has been measured.
+      partition.repartition([this] { reinit(); });
+    else
+      reinit();
+    points_at_edge = are_points_at_edge();
+    ++n_refinements;
+    AssertThrow(!points_at_edge, ExcInternalError("A point is outside the fine cells."));
+  }
+
+
+  template <int dim>
+  Blocks Simulation<dim>::blocks_ahead(const double time_step) const
+  {
+    constexpr double steps_ahead = 2000; // A new mesh costs about 100 steps, a cell without points memory alone.
+    constexpr double few_blocks  = GridParameters::least_ahead / (1 << dim);
+    const auto blocks            = [this](const double time) {
+      return scene.grid.with_surroundings(scene.blocks_of_points(time));
+    };
+    const Blocks around = blocks(0.);
+    for (double steps = steps_ahead; steps > 1; steps /= 2)
+      if (Blocks ahead = blocks(steps * time_step);
+          ahead.size() <= std::max(few_blocks, GridParameters::most_ahead * around.size()))
+        return ahead;
+    return around;
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::account_for_lost_points()
+  {
+    const auto lose = [&](const std::string &name,
+                          const std::vector<LostPoint<dim>> &points,
+                          const auto &layout,
+                          const BoundaryConditions<dim> &walls,
+                          double &lost_mass) {
+      for (const LostPoint<dim> &point : points)
+        {
+          const auto [face, is_open] = walls.face_crossed(point.location);
+          AssertThrow(is_open,
+                      ExcMessage("A point of " + name + " left the box through the closed wall '" + face + "' at (" +
+                                 number_text(point.location) + ") m, t = " + number_text(clock.time()) +
+                                 " s. Remedies: a smaller 'Courant number', or 'open' (water: 'drained') in subsection "
+                                 "Boundaries."));
+          const double mass             = point.properties[layout.mass];
+          const double inertia          = scene.forcing.mass_scaling() * mass;
+          const Tensor<1, dim> velocity = vector_of<dim>(point.properties.data() + layout.velocity);
+          lost_mass += mass;
+          totals.lost_momentum += inertia * velocity;
+          totals.lost_energy += 0.5 * inertia * velocity.norm_square() -
+                                mass * (scene.forcing.gravity() * (point.location - Point<dim>()));
+        }
+    };
+    for (auto &part : scene.water)
+      lose("the water",
+           part.points().lost(),
+           part.layout,
+           part.own_points() != nullptr ? *scene.water_walls : scene.walls,
+           totals.lost_water_mass);
+    for (auto &body : scene.bodies)
+      {
+        lose(body.name, body.points.lost(), body.layout, scene.walls, totals.lost_mass);
+        for (const LostPoint<dim> &point : body.points.lost())
+          totals.lost_volume += point.properties[body.layout.mass] / body.density;
+        totals.n_lost += body.points.lost().size();
+        body.points.lost().clear();
+      }
+    for (auto &part : scene.water)
+      part.points().lost().clear();
+    for (auto &load : scene.loads)
+      load.points().lost().clear();
+  }
+
+
+  namespace
+  {
+    constexpr double part_that_moves   = 0.01; // of the mass; single points at the surface do not count
+    constexpr double damping_of_trials = 2.;   // decay rate of the velocity, times sqrt(height of the soil/gravity)
+    constexpr double speed_at_rest     = 2e-4; // over sqrt(g H): terminal speed with a thousandth of strength missing
+
+
+    /// Extents along gravity, m.
+    struct Heights
+    {
+      double soil;  ///< all of it
+      double slope; ///< its free surface
+    };
+
+
+    /// Highest and lowest points of columns of cells. The free surface is the tops of all columns, and the bottoms of
+    /// those beside a column without soil. Where it is level within a cell, the slope is all the soil. Collective.
+    template <int dim>
+    Heights heights_of(const Scene<dim> &scene, const MPI_Comm communicator)
+    {
+      constexpr double nowhere   = std::numeric_limits<double>::lowest();
+      const double h             = scene.grid.cell_size();
+      const Tensor<1, dim> up    = -scene.forcing.gravity() / scene.forcing.gravity().norm();
+      const Tensor<1, dim> sides = scene.grid.upper_corner() - scene.grid.lower_corner();
+      std::array<std::size_t, dim> n; // columns along each axis: one along the axis nearest to gravity
+      std::size_t axis = 0, n_columns = 1;
+      for (unsigned int a = 1; a < dim; ++a)
+        if (std::abs(up[a]) >= std::abs(up[axis]))
+          axis = a;
+      for (unsigned int a = 0; a < dim; ++a)
+        n_columns *= n[a] = a == axis ? 1 : std::lround(sides[a] / h);
+
+      std::vector<double> tops(n_columns, nowhere), depths(n_columns, nowhere); // depth: minus the lowest height
+      for_each_moving_point(scene.bodies, [&](const auto &, const auto &point) {
+        std::size_t column = 0;
+        for (unsigned int a = 0; a < dim; ++a)
+          column =
+              column * n[a] + std::clamp<long>((point.location[a] - scene.grid.lower_corner()[a]) / h, 0, n[a] - 1);
+        const double height = Tensor<1, dim>(point.location) * up;
+        tops[column]        = std::max(tops[column], height);
+        depths[column]      = std::max(depths[column], -height);
+      });
+      Utilities::MPI::max(tops, communicator, tops);
+      Utilities::MPI::max(depths, communicator, depths);
+
+      double lowest_of_surface = std::numeric_limits<double>::max();
+      for (std::size_t column = 0; column < n_columns; ++column)
+        if (tops[column] > nowhere)
+          {
+            lowest_of_surface = std::min(lowest_of_surface, tops[column]);
+            for (std::size_t a = dim, stride = 1; a-- > 0; stride *= n[a])
+              {
+                const std::size_t place = column / stride % n[a];
+                if ((place > 0 && tops[column - stride] == nowhere) ||
+                    (place + 1 < n[a] && tops[column + stride] == nowhere))
+                  lowest_of_surface = std::min(lowest_of_surface, -depths[column]);
+              }
+          }
+      const double top = *std::max_element(tops.begin(), tops.end());
+      const double all = top + *std::max_element(depths.begin(), depths.end()), relief = top - lowest_of_surface;
+      return { all, relief < h ? all : relief };
+    }
+
+
+    /// What the part of the mass that moves exceeds, within 1 %. Collective.
+    /// @param value of a body and a point, not negative
+    template <int dim, typename Value>
+    double exceeded_by(const std::list<SoilBody<dim>> &bodies, const Value &value, const MPI_Comm communicator)
+    {
+      constexpr unsigned int n_bins = 1500;
+      constexpr double bins_per_e   = 100.;
+      double largest                = 0.;
+      for_each_moving_point(
+          bodies, [&](const auto &body, const auto &point) { largest = std::max(largest, value(body, point)); });
+      largest = Utilities::MPI::max(largest, communicator);
+      if (largest == 0.)
+        return largest;
+
+      std::vector<double> masses(n_bins, 0.); // from the largest value down
+      for_each_moving_point(bodies, [&](const auto &body, const auto &point) {
+        const double bin = -bins_per_e * std::log(std::max(value(body, point), 1e-100) / largest);
+        masses[std::min(bin, n_bins - 1.)] += point.properties[body.layout.mass];
+      });
+      Utilities::MPI::sum(masses, communicator, masses);
+      double all = 0.;
+      for (const double mass : masses)
+        all += mass;
+      unsigned int bin = 0;
+      for (double above = masses[0]; bin + 1 < n_bins && above <= part_that_moves * all;)
+        above += masses[++bin];
+      return largest * std::exp(-(bin + 0.5) / bins_per_e);
+    }
+
+
+    /// Largest plastic shear strain; 0 if no law has it. Collective.
+    template <int dim>
+    double largest_plastic_strain(const std::list<SoilBody<dim>> &bodies, const MPI_Comm communicator)
+    {
+      double largest = 0.;
+      for (const auto &body : bodies)
+        {
+          const auto quantities = body.material->internal_quantities;
+          for (unsigned int q = 0; q < quantities.size(); ++q)
+            if (quantities[q].name == "plastic_shear_strain")
+              for_each_point(body.points, [&](const auto &point) {
+                largest = std::max(largest, point.properties[body.layout.internal_variables + q]);
+              });
+        }
+      return Utilities::MPI::max(largest, communicator);
+    }
+
+
+    /// Settlement of an elastic layer as high as the soil by its weight, rho g H^2/(2 M), M = rho c^2. Collective.
+    template <int dim>
+    double elastic_settlement(const std::list<SoilBody<dim>> &bodies,
+                              const double gravity,
+                              const double height,
+                              const MPI_Comm communicator)
+    {
+      std::vector<double> sums(2, 0.); // mass, and mass over the square of the wave speed
+      for_each_moving_point(bodies, [&](const auto &body, const auto &point) {
+        const double pressure = mean_effective_stress(point.properties + body.layout.stress);
+        const double c        = body.wave_speed(body.material->initial_bulk_modulus(pressure), /* compression */ 0.);
+        const double m        = point.properties[body.layout.mass];
+        sums                  = { sums[0] + m, sums[1] + m / (c * c) };
+      });
+      Utilities::MPI::sum(sums, communicator, sums);
+      return 0.5 * gravity * height * height * sums[1] / sums[0];
+    }
+  } // namespace
+
+
+  template <int dim>
+  TimeStepper Simulation<dim>::relax(const double maximum_time,
+                                     const unsigned int steps_between_looks,
+                                     const std::function<bool(const TimeStepper &, double)> &is_over)
+  {
+    TimeStepParameters held_water = parameters.time_step; // An auto maximum is that of dry soil.
+    held_water.choose_maximum(/* has_water */ false, scene.forcing.gravity().norm(), scene.grid.cell_size());
+    TimeStepper until_rest(held_water);
+    stop.listen();
+    is_released = false;
+    scene.mark_start();
+    scheme->hold_water(true);
+    bool goes_on = true;
+    while (goes_on && until_rest.time() < maximum_time && reason == StopReason::none)
+      {
+        const double step = until_rest.next_step(stable_step(until_rest), maximum_time);
+        advance(step);
+        until_rest.advance(step, maximum_time);
+        if (until_rest.step() % steps_between_looks == 0 || until_rest.time() >= maximum_time)
+          goes_on = !is_over(until_rest, step);
+      }
+    if (reason == StopReason::none)
+      {
+        scheme->hold_water(false);
+        scene.open_gate();
+        scene.stop();
+        measure_speeds();
+      }
+    return until_rest;
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::settle()
+  {
+    constexpr unsigned int steps_between_lines = 1000;
+    constexpr unsigned int least_way           = 4;  // Single points do not stop the others.
+    constexpr unsigned int steps_at_rest       = 20; // The force of an oscillation vanishes for a moment.
+    const SettlingParameters &settling         = parameters.settling;
+    const std::string name_of_ratio            = "unbalanced force over weight ";
+    if (!settling.gate.empty())
+      scene.close_gate(settling.gate);
+
+    // All stops where the kinetic energy is largest (@source{barnes1999}), whatever the stiffness.
+    double ratio           = std::numeric_limits<double>::infinity(); // not known yet
+    double kinetic         = 0.;
+    unsigned int n_falling = 0; // steps with less kinetic energy since the last stop
+    unsigned int n_below   = 0;
+    const auto is_at_rest  = [&](const TimeStepper &until_rest, const double step) {
+      const NodalForces forces = scheme->nodal_forces(step).sum_over_ranks(communicator);
+      ratio                    = forces.ratio();
+      n_below                  = ratio < settling.unbalanced_force ? n_below + 1 : 0;
+      const bool is_past_peak  = forces.kinetic < kinetic && ++n_falling >= least_way;
+      if (is_past_peak)
+        {
+          scene.stop();
+          n_falling = 0;
+        }
+      kinetic = is_past_peak ? 0. : forces.kinetic;
+      if (until_rest.step() % steps_between_lines == 0)
+        folder.log("Settling: " + number_text(until_rest.time()) + " s, step " + std::to_string(until_rest.step()) +
+                   ", " + name_of_ratio + number_text(ratio));
+      return n_below >= steps_at_rest;
+    };
+    const TimeStepper until_rest = relax(settling.maximum_time, 1, is_at_rest);
+    is_released                  = reason == StopReason::none;
+    folder.log("Settled for " + number_text(until_rest.time()) + " s in " + std::to_string(until_rest.step()) +
+               " steps; " + name_of_ratio + number_text(ratio) + (is_released ? ". Released." : ". Asked to stop."));
+    if (is_released)
+      {
+        const auto checks = checks_of_settling(ratio);
+        for (const CheckResult &check : checks)
+          if (check.is_exceeded)
+            folder.log("Check: " + check.text + ", bound " + check.bound + '.');
+          else
+            folder.record("Settling: " + check.text);
+        results.add_checks(checks);
+      }
+    // Balances begin at the release; what was lost stays lost.
+    const RunBalance<dim> settled = totals;
+    totals                        = RunBalance<dim>(scene.obstacles.size());
+    totals.n_lost                 = settled.n_lost;
+    totals.lost_mass              = settled.lost_mass;
+    totals.lost_volume            = settled.lost_volume;
+    totals.lost_water_mass        = settled.lost_water_mass;
+  }
+
+
+  template <int dim>
+  std::vector<CheckResult> Simulation<dim>::checks_of_settling(const double unbalanced_force) const
+  {
+    const Heights height = heights_of(scene, communicator);
+    const double elastic = elastic_settlement(scene.bodies, scene.forcing.gravity().norm(), height.soil, communicator);
+    const double allowed = parameters.safety.displacement * height.slope + elastic;
+    const double moved   = displacement();
+    const bool stands    = !(moved > allowed);
+    const bool rests     = unbalanced_force < parameters.settling.unbalanced_force;
+    return { { stands ? "displacement while settling " + short_text(moved) + " m"
+                      : "this slope does not stand (moved " + short_text(moved) + " m while settling): see --safety",
+               short_text(allowed) + " m",
+               !stands },
+             { "unbalanced force at the release " + short_text(unbalanced_force) + " of the weight",
+               short_text(parameters.settling.unbalanced_force),
+               !rests },
+             { "largest plastic shear strain of settling " +
+                   short_text(largest_plastic_strain(scene.bodies, communicator)),
+               "" } };
+  }
+
+
+  template <int dim>
+  double Simulation<dim>::displacement() const
+  {
+    return exceeded_by(
+        scene.bodies,
+        [](const auto &body, const auto &point) {
+          return (Tensor<1, dim>(point.location) - vector_of<dim>(point.properties + body.layout.start)).norm();
+        },
+        communicator);
+  }
+
+
+  template <int dim>
+  Trial Simulation<dim>::try_strength(const double displacement_of_failure)
+  {
+    constexpr unsigned int steps_between_looks = 20;
+    const Heights height                       = heights_of(scene, communicator);
+    const double gravity                       = scene.forcing.gravity().norm();
+    const double time_scale                    = std::sqrt(height.soil / gravity);
+    const TrialBounds bounds{ time_scale,
+                              speed_at_rest * gravity * time_scale,
+                              displacement_of_failure * height.slope,
+                              parameters.safety.longest_trial * time_scale };
+    TrialJudge judge(bounds);
+    Trial trial;
+    scene.forcing.set_damping(damping_of_trials / time_scale);
+    const auto has_ended = [&](const TimeStepper &until_rest, const double) {
+      trial.displacement = displacement();
+      const double speed = exceeded_by(
+          scene.bodies,
+          [](const auto &body, const auto &point) {
+            return vector_of<dim>(point.properties + body.layout.velocity).norm();
+          },
+          communicator);
+      trial.end = judge.look(until_rest.time(), trial.displacement, speed);
+      folder.record("t " + number_text(until_rest.time()) + " s, displacement " + number_text(trial.displacement) +
+                    " m, speed " + number_text(speed) + " m/s");
+      return trial.end != TrialEnd::undecided;
+    };
+    const TimeStepper until_rest = relax(bounds.maximum_time, steps_between_looks, has_ended);
+    scene.forcing.set_damping(0.);
+    trial.time  = until_rest.time();
+    trial.steps = until_rest.step();
+    return trial;
   }
 
   template class Simulation<2>;

@@ -120,18 +120,6 @@ namespace scree
 
 
   template <int dim>
-  void ExplicitScheme<dim>::project_to_ground(const double time_step, const double largest_speed)
-  {
-    for (auto &body : bodies)
-      if (!body.is_rigid)
-        {
-          Group &group = *std::next(groups.begin(), body.group);
-          group.contact.project_to_boundary(body.points, time_step, largest_speed, group.closed_faces);
-        }
-  }
-
-
-  template <int dim>
   std::vector<FacetTractions<dim>> ExplicitScheme<dim>::ground_tractions() const
   {
     std::vector<FacetTractions<dim>> all;

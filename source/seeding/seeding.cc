@@ -455,9 +455,9 @@ namespace scree
   void seed(SoilBody<dim> &body, const SeedingParameters &parameters, const Lattice<dim> &lattice)
   {
     const Region<dim> region(entry_name(body.name, "Region"), parameters.expression(), parameters.map);
-    const auto part_of_cube = [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
+    const auto part_of_cube = [&](const Point<dim> &lower, const double width) -> Seed<dim> {
       const auto [volume, centroid] = region.part_of_cube(lower, width, lattice.ground);
-      return { volume, volume, centroid };
+      return { {}, centroid, volume, volume };
     };
     fill<dim>(body, body.points, body.name, parameters, lattice, part_of_cube, [&](const auto &seeds) {
       double volume = 0;
@@ -581,8 +581,8 @@ namespace scree
       return fill_pores(water);
     const auto parts = water_parts<dim>(parameters, soil);
     std::vector<double> filled(parts.size(), 0.); // of each part, m^3
-    const auto part_of_cube = [&](const Point<dim> &lower, const double width) -> CubePart<dim> {
-      CubePart<dim> sum{ 0., 0., lower };
+    const auto part_of_cube = [&](const Point<dim> &lower, const double width) -> Seed<dim> {
+      Seed<dim> sum{ {}, lower, 0., 0. };
       Tensor<1, dim> moment; // of the water about the lower corner, m^4
       for (unsigned int i = 0; i < parts.size(); ++i)
         {

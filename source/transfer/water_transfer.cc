@@ -200,7 +200,7 @@ namespace scree
             volume                              = std::max(soil->pore_volume(point.properties), 0.);
             point.properties[water.layout.mass] = water.density * volume;
           });
-        costs.finish_cell(cell.cell, cell.n_points);
+        costs.finish_cells(&cell, &cell + 1, cell.n_points);
       }
     return largest.speed();
   }

@@ -4,7 +4,7 @@
 // fault. What is accepted and small is also built and filled with points. A crash, a hang (20 s) and any other
 // exception fail.
 
-#include <scree/case/memory.h>
+#include <scree/case/case_checks.h>
 #include <scree/model/scene.h>
 
 #include <deal.II/base/mpi.h>

@@ -4,7 +4,7 @@
 
 #include "test.h"
 
-#include <scree/bodies/water_phase.h>
+#include <scree/bodies/phases.h>
 #include <scree/materials/table.h>
 #include <scree/seeding/seeding.h>
 

@@ -19,89 +19,11 @@ namespace scree
     void add_parameters(dealii::ParameterHandler &prm);
   };
 
-  /// Entries of subsection Water for a start from steady seepage.
-  struct SeepageStart
-  {
-    bool is_steady         = false; ///< whether the pressure in soil is that of steady flow
-    std::string wall_heads = "";    ///< `Left: 12, Right: 4`, m; empty: none
-
-    /// Declares the entries in the subsection that is open.
-    void add_parameters(dealii::ParameterHandler &prm)
-    {
-      prm.add_parameter(
-          "Steady seepage",
-          is_steady,
-          "Whether the pore pressure at the start is that of steady flow through the soil, with a free "
-          "surface, between the heads of \"Reservoir level\" and \"Heads at walls\". Pores are full where "
-          "it is not negative. Water leaves through faces in air. Alternative to \"Phreatic surface\".");
-      prm.add_parameter(
-          "Heads at walls",
-          wall_heads,
-          "m; elevations of the water table at walls of the box for \"Steady seepage\", such as Left: 12, "
-          "Right: 4. They hold at the start only; in the run the wall is as in subsection "
-          "Boundaries/Water. Empty: none.");
-    }
-
-    /// Throws EntryError at impossible combinations with other entries of subsection Water.
-    /// @param phreatic entry and value of a phreatic surface; empty: not given
-    void check(const unsigned int n_bodies,
-               const std::pair<std::string, std::string> &phreatic,
-               const std::string &reservoir_level,
-               const std::string &initial_pressure) const;
-
-    /// Throws EntryError if a head at a wall is not in the box.
-    void check_heads(const std::vector<double> &lower, const std::vector<double> &upper) const
-    {
-      const double bottom = lower.back(), top = upper.back();
-      for (const auto &[wall, head] : heads())
-        {
-          require_entry(wall != "Top",
-                        { "Water", "Heads at walls", wall_heads },
-                        "no soil at the top wall is below a head in the box. Remove \"Top\".");
-          require_entry(head > bottom && head <= top,
-                        { "Water", "Heads at walls", wall_heads },
-                        "the head of " + number_text(head) +
-                            " m is not in the box of subsection Mesh. Write one above " + number_text(bottom) +
-                            " and up to " + number_text(top) + " m, or a larger box.");
-        }
-    }
-
-    /// Names of walls and heads, m. Throws EntryError if the text does not read.
-    std::vector<std::pair<std::string, double>> heads() const
-    {
-      std::vector<std::pair<std::string, double>> heads;
-      for (const std::string &part : dealii::Utilities::split_string_list(wall_heads, ','))
-        {
-          const std::vector<std::string> words = dealii::Utilities::split_string_list(part, ':');
-          const double head                    = words.size() == 2 ? number_of(words[1]) : std::nan("");
-          require_entry(std::isfinite(head),
-                        { "Water", "Heads at walls", wall_heads },
-                        "write walls with their heads in m, such as Left: 12, Right: 4.");
-          heads.emplace_back(words.front(), head);
-        }
-      return heads;
-    }
-  };
-
   /// How points carry soil and water.
   enum class PointSets
   {
     double_point, ///< water has points of its own
     single_point  ///< water rides on the soil's points
-  };
-
-  /// What the water's pressure is at the start.
-  enum class InitialPressure
-  {
-    hydrostatic, ///< the weight of the water above
-    none
-  };
-
-  /// How the hydraulic conductivity follows the porosity.
-  enum class ConductivityLaw
-  {
-    constant,     ///< k, m/s, of the entry at any porosity
-    kozeny_carman ///< in proportion to n^3/(1-n)^2 (@source{carman1937})
   };
 
   /// Subsection Water: where it is, and how it flows through the soil.
@@ -125,7 +47,8 @@ namespace scree
     std::string reservoir_level   = "";            ///< expression of the elevation, m; empty: no reservoir
     double air_entry_pressure     = 0;             ///< suction at which air enters the soil, Pa; 0: none
     double fringe                 = 0;             ///< height above given levels up to which it fills the pores, m
-    SeepageStart seepage_start;                    ///< steady flow at the start
+    bool is_steady                = false;         ///< whether the pressure in soil is that of steady seepage
+    std::string wall_heads        = "";            ///< of it, `Left: 12, Right: 4`, m; empty: none
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -134,22 +57,49 @@ namespace scree
     /// @param gravity m/s^2, one number an axis
     void check(const std::vector<double> &gravity, const unsigned int n_bodies) const;
 
+    /// Throws EntryError if a head at a wall is not in the box.
+    void check_wall_heads(const std::vector<double> &lower, const std::vector<double> &upper) const
+    {
+      const double bottom = lower.back(), top = upper.back();
+      for (const auto &[wall, head] : heads_at_walls())
+        {
+          require_entry(wall != "Top",
+                        { "Water", "Heads at walls", wall_heads },
+                        "no soil at the top wall is below a head in the box. Remove \"Top\".");
+          require_entry(head > bottom && head <= top,
+                        { "Water", "Heads at walls", wall_heads },
+                        "the head of " + number_text(head) +
+                            " m is not in the box of subsection Mesh. Write one above " + number_text(bottom) +
+                            " and up to " + number_text(top) + " m, or a larger box.");
+        }
+    }
+
+    /// Names of walls and the heads of steady seepage there, m. Throws EntryError if the text does not read.
+    std::vector<std::pair<std::string, double>> heads_at_walls() const
+    {
+      std::vector<std::pair<std::string, double>> heads;
+      for (const std::string &part : dealii::Utilities::split_string_list(wall_heads, ','))
+        {
+          const std::vector<std::string> words = dealii::Utilities::split_string_list(part, ':');
+          const double head                    = words.size() == 2 ? number_of(words[1]) : std::nan("");
+          require_entry(std::isfinite(head),
+                        { "Water", "Heads at walls", wall_heads },
+                        "write walls with their heads in m, such as Left: 12, Right: 4.");
+          heads.emplace_back(words.front(), head);
+        }
+      return heads;
+    }
+
     /// Entry `Point sets` as an enum.
     PointSets point_sets_kind() const
     {
       return point_sets == "single" ? PointSets::single_point : PointSets::double_point;
     }
 
-    /// Entry `Initial pressure` as an enum.
-    InitialPressure initial_pressure_kind() const
+    /// Whether the pressure at the start is the weight of the water above.
+    bool starts_hydrostatic() const
     {
-      return initial_pressure == "none" ? InitialPressure::none : InitialPressure::hydrostatic;
-    }
-
-    /// Entry `Conductivity law` as an enum.
-    ConductivityLaw conductivity_law_kind() const
-    {
-      return conductivity_law == "constant" ? ConductivityLaw::constant : ConductivityLaw::kozeny_carman;
+      return initial_pressure == "hydrostatic";
     }
 
     /// Whether the region is wherever soil is, and not an expression.
@@ -177,13 +127,13 @@ namespace scree
     /// Whether a phreatic surface, a reservoir level or steady seepage say where water is, in place of the region.
     bool has_levels() const
     {
-      return seepage_start.is_steady || !(phreatic_surface.empty() && reservoir_level.empty());
+      return is_steady || !(phreatic_surface.empty() && reservoir_level.empty());
     }
 
     /// Entry and value that place the water, for messages.
     std::pair<std::string, std::string> place() const
     {
-      if (seepage_start.is_steady)
+      if (is_steady)
         return { "Steady seepage", "true" };
       if (!phreatic_surface.empty())
         return { "Phreatic surface", phreatic_surface };
@@ -227,7 +177,18 @@ namespace scree
           reservoir_level,
           "m; elevation of free water outside the soil, an expression of x (3D: x, y), such as if(x < 20, "
           "8, 0.5). Without \"Phreatic surface\" it also fills the pores below it. Empty: no free water.");
-      seepage_start.add_parameters(prm);
+      prm.add_parameter(
+          "Steady seepage",
+          is_steady,
+          "Whether the pore pressure at the start is that of steady flow through the soil, with a free "
+          "surface, between the heads of \"Reservoir level\" and \"Heads at walls\". Pores are full where "
+          "it is not negative. Water leaves through faces in air. Alternative to \"Phreatic surface\".");
+      prm.add_parameter(
+          "Heads at walls",
+          wall_heads,
+          "m; elevations of the water table at walls of the box for \"Steady seepage\", such as Left: 12, "
+          "Right: 4. They hold at the start only; in the run the wall is as in subsection "
+          "Boundaries/Water. Empty: none.");
     }
     void add_drag_parameters(dealii::ParameterHandler &prm);
 
@@ -256,7 +217,7 @@ namespace scree
               "single-point water does not leave the soil, and no air enters it. Remove the entry, or write "
               "\"Point sets = double\".");
       require(
-          !seepage_start.is_steady,
+          !is_steady,
           "the pores above the water table of \"Steady seepage\" would not be full. Remove one of the two entries, or "
           "write the elevation as \"Phreatic surface\".");
     }
@@ -271,44 +232,9 @@ namespace scree
       require_entry(grain_diameter == defaults.grain_diameter, { "Water", "Grain diameter", grain_diameter }, remedy);
     }
     void check_levels(const std::vector<double> &gravity, const unsigned int n_bodies) const;
+    void check_seepage(const unsigned int n_bodies) const;
 
     std::tuple<std::shared_ptr<const LevelSet<2>>, std::shared_ptr<const LevelSet<3>>> tables;
-  };
-
-  /// What a body of soil does to water that flows through it, where it differs from what subsection Water says.
-  struct SeepageParameters
-  {
-    double conductivity = 0; ///< m/s, at the initial porosity; 0: that of subsection Water
-
-    /// Declares the entries in the body's subsection.
-    void add_parameters(dealii::ParameterHandler &prm)
-    {
-      prm.add_parameter("Hydraulic conductivity",
-                        conductivity,
-                        "m/s; conductivity (Darcy) of this body at its initial porosity; 0: as in subsection Water.",
-                        dealii::Patterns::Double(0));
-    }
-
-    /// Throws EntryError at impossible combinations; `body` is the name of the subsection.
-    /// @param water null in a dry scene
-    void check(const std::string &body, const WaterParameters *water) const
-    {
-      const std::string dry =
-          "this entry has no effect, as the file has no subsection Water. Add one, or remove the entry.";
-      require_entry(water != nullptr || conductivity == 0, { body, "Hydraulic conductivity", conductivity }, dry);
-    }
-
-    /// The entries of subsection Water, with those of the body in their place.
-    WaterParameters in_place_of(const WaterParameters &water) const
-    {
-      WaterParameters result = water;
-      if (conductivity > 0)
-        {
-          result.conductivity   = conductivity;
-          result.grain_diameter = 0;
-        }
-      return result;
-    }
   };
 } // namespace scree
 

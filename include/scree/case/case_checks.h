@@ -20,11 +20,37 @@ namespace scree
   /// Compares the entries of a case with those of the checkpoint it is to go on from. Returns a line for the log for
   /// each change that the results will show; throws EntryError at changes that the state in the checkpoint does not
   /// bear.
-  std::vector<std::string> notes_on_changes(const Checkpoint &checkpoint, const CaseEntries &entries);
+  std::vector<std::string> notes_on_changes(const Checkpoint &checkpoint, const CaseEntries &now);
 
   /// What to write instead of an entry or subsection, or of a value, that earlier versions had; empty if there was
   /// none.
   std::string removed_entry_remedy(const std::string &subsection, const std::string &entry, const std::string &value);
+
+  /// What a case will take of memory, from its entries alone.
+  struct MemoryEstimate
+  {
+    double n_cells        = 0; ///< fine ones, at the start
+    double n_soil_points  = 0, ///< at the start, of all bodies
+        n_water_points    = 0; ///< at the start; 0 if the soil's points carry the water
+    double bytes_of_cells = 0, ///< of all ranks
+        bytes_of_points   = 0; ///< of all ranks
+    double bytes_of_rank  = 0; ///< of each rank beside its share of the cells
+
+    /// Of so many ranks that share the case.
+    double bytes(const unsigned int n_ranks) const
+    {
+      return bytes_of_cells + bytes_of_points + n_ranks * bytes_of_rank;
+    }
+  };
+
+  /// Numbers of cells and points of a case; regions are sampled. Throws ValueError if one is no number at a sample.
+  template <int dim>
+  MemoryEstimate estimate_memory(const Parameters &parameters);
+
+  /// The estimate; throws EntryError, with it, if the hosts of the ranks have not enough memory for the case.
+  /// Collective.
+  template <int dim>
+  MemoryEstimate require_memory(const Parameters &parameters, const MPI_Comm communicator);
 } // namespace scree
 
 #endif

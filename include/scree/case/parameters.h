@@ -23,7 +23,7 @@ namespace scree
   {
     std::string name;                     ///< name of its subsection
     SeedingParameters seeding;            ///< where it is, and its points
-    SeepageParameters seepage;            ///< hydraulic conductivity
+    double conductivity = 0;              ///< of water, m/s, at the initial porosity; 0: that of subsection Water
     MaterialParameters material;          ///< law and its entries
     InitialStateParameters initial_state; ///< stress before the first step
 
@@ -32,7 +32,10 @@ namespace scree
     {
       prm.enter_subsection(name);
       seeding.add_parameters(prm);
-      seepage.add_parameters(prm);
+      prm.add_parameter("Hydraulic conductivity",
+                        conductivity,
+                        "m/s; conductivity (Darcy) of this body at its initial porosity; 0: as in subsection Water.",
+                        dealii::Patterns::Double(0));
       material.add_parameters(prm);
       initial_state.add_parameters(prm);
       prm.leave_subsection();
@@ -60,6 +63,17 @@ namespace scree
       return seeding.grain_density * (1. - initial_porosity());
     }
 
+    /// Drag of the water in its pores: what subsection Water says, but for a conductivity of the body.
+    DragLaw drag_law(WaterParameters water) const
+    {
+      if (conductivity > 0)
+        {
+          water.conductivity   = conductivity;
+          water.grain_diameter = 0;
+        }
+      return { water, initial_porosity() };
+    }
+
     /// Horizontal over vertical stress of a K0 start.
     double k0() const
     {
@@ -79,7 +93,7 @@ namespace scree
       require_entry(seeding.initial_velocity.empty(),
                     { name, "Initial velocity", seeding.initial_velocity },
                     "\"Material = rigid\" does not move. Remove one of the two.");
-      require_entry(initial_state.stress_kind() == InitialStress::none,
+      require_entry(initial_state.type == "none",
                     { name + "/Initial state", "Type", initial_state.type },
                     "the stress of \"Material = rigid\" is not known. Remove the entry.");
     }

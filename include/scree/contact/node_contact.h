@@ -3,7 +3,7 @@
 #define scree_contact_node_contact_h
 
 #include <scree/boundary/node_constraint.h>
-#include <scree/step/budget.h>
+#include <scree/step/step_report.h>
 
 #include <algorithm>
 

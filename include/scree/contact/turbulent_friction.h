@@ -2,10 +2,10 @@
 #ifndef scree_contact_turbulent_friction_h
 #define scree_contact_turbulent_friction_h
 
-#include <scree/bodies/soil_body.h>
+#include <scree/bodies/phases.h>
 #include <scree/mesh/discrete_level_set.h>
 #include <scree/mesh/node_values.h>
-#include <scree/step/budget.h>
+#include <scree/step/step_report.h>
 
 #include <list>
 

@@ -2,7 +2,7 @@
 #ifndef scree_initial_geostatic_h
 #define scree_initial_geostatic_h
 
-#include <scree/bodies/water_phase.h>
+#include <scree/bodies/phases.h>
 #include <scree/initial/steady_seepage.h>
 
 namespace scree
@@ -46,12 +46,6 @@ namespace scree
     /// Vertical total stress from the weight above `x`, Pa, compression positive.
     double weight_above(const dealii::Point<dim> &x);
 
-    /// Communicator of the mesh.
-    MPI_Comm communicator() const
-    {
-      return grid.communicator();
-    }
-
     /// m/s^2
     dealii::Tensor<1, dim> gravity_vector() const
     {
@@ -60,11 +54,8 @@ namespace scree
       return result;
     }
 
-    /// The axis of gravity.
-    unsigned int vertical_axis() const
-    {
-      return axis;
-    }
+    const BackgroundGrid<dim> &grid; ///< the mesh
+    unsigned int axis;               ///< of gravity
 
   private:
     struct Piece
@@ -75,11 +66,9 @@ namespace scree
 
     std::vector<Piece> pieces_above(const dealii::Point<dim> &x) const;
 
-    const BackgroundGrid<dim> &grid;
     std::vector<Layer> layers;
     double gravity;
     double spacing;
-    unsigned int axis;
     double up; ///< +1 if gravity points to lower coordinates
 
     std::map<std::array<long, dim - 1>, std::vector<Piece>> columns; // cached: neighbours share a column

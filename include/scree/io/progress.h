@@ -87,11 +87,11 @@ namespace scree
                 const double kinetic_energy);
 
     /// Counts a step by what bounds it.
-    /// @param part of the step that waves and motion alone would allow
-    void count(const StepLimit limit, const double part)
+    /// @param bounds see TimeStepper::bounds()
+    void count(const std::array<double, 3> &bounds)
     {
-      ++counts[static_cast<unsigned int>(limit)];
-      others += part;
+      ++counts[std::min_element(bounds.begin(), bounds.end()) - bounds.begin()];
+      others += std::min(1., bounds[0] / std::min(bounds[1], bounds[2]));
     }
 
     /// Writes how long the run took, and what bounded its steps.
@@ -134,11 +134,11 @@ namespace scree
     const double start_time, end_time;
     const std::string place_column;
     dealii::Timer clock;
-    const double processor_time_before = processor_time();
-    double last_line                   = 0; // wall time, s
-    bool has_heading                   = false;
-    StepCounts counts                  = {};
-    double others                      = 0; // steps that the run would have taken without 'Maximum time step'
+    const double processor_time_before       = processor_time();
+    double last_line                         = 0; // wall time, s
+    bool has_heading                         = false;
+    std::array<unsigned long long, 3> counts = {}; // by StepLimit
+    double others                            = 0;  // steps that the run would have taken without 'Maximum time step'
   };
 } // namespace scree
 

@@ -2,17 +2,13 @@
 #ifndef scree_model_scene_h
 #define scree_model_scene_h
 
-#include <scree/case/memory.h>
+#include <scree/case/case_checks.h>
 #include <scree/initial/steady_seepage.h>
 #include <scree/postprocess/statistics.h>
 #include <scree/schemes/explicit_scheme.h>
 
 namespace scree
 {
-  /// Where the case puts points at the start. Refers to the parameters.
-  template <int dim>
-  PlacesOfPoints<dim> places_of_points(const Parameters &parameters);
-
   /// What a case describes: the mesh, its walls, bodies of soil, water and loads.
   template <int dim>
   class Scene
@@ -43,19 +39,6 @@ namespace scree
     /// Adds the speeds of what enters.
     void include_inflows(Speeds &speeds) const;
 
-    /// A line for the log about each inflow.
-    std::vector<std::string> texts_of_inflows() const
-    {
-      std::vector<std::string> texts;
-      for (const Inflow<dim> &inflow : inflows)
-        texts.push_back("Inflow " + inflow.name + ": " + number_text(inflow.area()) + (dim == 2 ? " m" : " m^2") +
-                        " are open; " + std::to_string(inflow.places().size()) + " points a layer of " + inflow.body);
-      if (rain)
-        texts.push_back("Rain: on " + number_text(rain->area()) + (dim == 2 ? " m" : " m^2") + ", in drops of " +
-                        number_text(rain->volume()) + (dim == 2 ? " m^2" : " m^3"));
-      return texts;
-    }
-
     /// Fits what depends on the mesh and its partition to them. Collective.
     void reinit();
 
@@ -77,18 +60,15 @@ namespace scree
     /// Soil and water do not move in this region of a gate until it is opened. Collective.
     void close_gate(const std::string &region)
     {
-      const auto make_region = [&] { return std::make_unique<Region<dim>>(entry_name("Settling", "Gate"), region); };
-      constraints.close_gate(make_region());
-      if (walls_alone)
-        walls_alone->close_gate(make_region());
+      for (Constraints<dim> &of_nodes : constraints)
+        of_nodes.close_gate(std::make_unique<Region<dim>>(entry_name("Settling", "Gate"), region));
     }
 
     /// Removes the constraints of close_gate().
     void open_gate()
     {
-      constraints.open_gate();
-      if (walls_alone)
-        walls_alone->open_gate();
+      for (Constraints<dim> &of_nodes : constraints)
+        of_nodes.open_gate();
     }
 
     /// Stops all points: no velocity, no affine field of velocity.
@@ -97,12 +77,12 @@ namespace scree
     /// From here on, displacements count.
     void mark_start();
 
+    const Parameters &parameters;                         ///< the case
     const MemoryEstimate expected_memory;                 ///< estimate from the entries
     BackgroundGrid<dim> grid;                             ///< mesh and nodes of the velocity
     BoundaryConditions<dim> walls;                        ///< faces of the box acting on the soil
     std::unique_ptr<BoundaryConditions<dim>> water_walls; ///< null in a dry scene
-    Constraints<dim> constraints;                         ///< constraints of the nodes
-    std::unique_ptr<Constraints<dim>> walls_alone;  ///< without rigid bodies, for what slides on them; null without it
+    std::list<Constraints<dim>> constraints;        ///< of the nodes; for what slides on rigid bodies, others last
     BodyForces<dim> forcing;                        ///< gravity, body force and motion of the base
     std::list<SoilBody<dim>> bodies;                ///< bodies of soil, in the order of the case
     std::list<WaterPhase<dim>> water;               ///< empty in a dry scene; one with points of its own, or one a body
@@ -152,53 +132,52 @@ namespace scree
               inflow_of_node[node] = moved.size();
           moved.push_back({ dealii::Tensor<1, dim>(), inflow.brings_soil });
         }
-      constraints.set_inflows(inflow_of_node, moved);
+      constraints.front().set_inflows(inflow_of_node, moved);
     }
 
     /// A point that enters.
     struct Entrant
     {
-      double volume;               ///< of the layer about it, m^3 (2D: per m)
+      unsigned int number;         ///< in the list of places
       dealii::Point<dim> location; ///< m
       unsigned int cell;           ///< active cell index
       dealii::Point<dim> place;    ///< in the cell, from 0 to 1 along each axis
     };
 
-    /// Puts in a layer of an inflow; returns how many points of this rank that are. `back` layers have entered after
-    /// it.
-    /// @param mass_slot of the points
+    /// Puts in points with a velocity, m/s, and books their momentum and energy; returns which of them are in cells of
+    /// this rank.
+    /// @param locations m, the same on all ranks
     /// @param fill writes the properties of an Entrant, which are 0 before
-    template <typename Fill>
-    unsigned int add_layer(const Inflow<dim> &inflow,
-                           const unsigned int back,
-                           PointSet<dim> &points,
-                           const unsigned int mass_slot,
-                           const Fill &fill,
-                           RunBalance<dim> &totals) const;
+    template <typename Layout, typename Fill>
+    std::vector<int> add_points(PointSet<dim> &points,
+                                const Layout &layout,
+                                const std::vector<dealii::Point<dim>> &locations,
+                                const dealii::Tensor<1, dim> &velocity,
+                                const Fill &fill,
+                                RunBalance<dim> &totals) const;
     /// The soil and water under the rain. Collective.
     typename Rain<dim>::Columns columns_of_rain();
     /// The drops of rain of let_in().
     void
     let_rain(const double time, const double time_step, const PressureOfCell<dim> &pressure, RunBalance<dim> &totals);
-    unsigned int add_soil(const Inflow<dim> &inflow, const unsigned int back, RunBalance<dim> &totals);
-    unsigned int add_water(const Inflow<dim> &inflow,
-                           const unsigned int back,
-                           const PressureOfCell<dim> &pressure,
-                           RunBalance<dim> &totals);
 
-    /// Writes the properties of a point of soil that enters.
-    void fill_entrant(const Entrant &entrant, const SoilBody<dim> &body, std::vector<double> &properties) const;
+    /// A layer of an inflow, at these places; see add_points().
+    std::vector<int>
+    add_soil(const Inflow<dim> &inflow, const std::vector<dealii::Point<dim>> &locations, RunBalance<dim> &totals);
 
-    /// The same of water.
+    /// Writes the properties of a point of water that enters, and books its mass.
+    /// @param volume m^3 (2D: per m)
     /// @param pressure at the corners of its cell, Pa
-    void fill_entrant(const Entrant &entrant,
-                      const WaterPhase<dim> &phase,
-                      const std::array<double, (1 << dim)> &pressure,
-                      std::vector<double> &properties) const
+    void fill_with_water(const Entrant &entrant,
+                         const double volume,
+                         const std::array<double, (1 << dim)> &pressure,
+                         std::vector<double> &properties,
+                         RunBalance<dim> &totals) const
     {
-      const auto &layout        = phase.layout;
-      properties[layout.mass]   = phase.density * entrant.volume;
-      properties[layout.volume] = entrant.volume;
+      const auto &layout        = water.front().layout;
+      properties[layout.mass]   = water.front().density * volume;
+      properties[layout.volume] = volume;
+      totals.entered_water_mass += properties[layout.mass];
       for (unsigned int v = 0; v < pressure.size(); ++v)
         {
           properties[layout.pressure] +=
@@ -214,7 +193,6 @@ namespace scree
     /// The bed and the obstacles: what points in contact have slots for, in this order.
     std::vector<RigidSurface<dim>> rigid_surfaces() const;
     void set_initial_state();
-    const Parameters &parameters;
     WaterParameters water_at_start; // with the surface of steady seepage once it is known
     const ContactGroups groups;
     const MPI_Comm communicator;

@@ -5,7 +5,7 @@
 #include <scree/boundary/constraints.h>
 #include <scree/mesh/node_values.h>
 #include <scree/boundary/body_forces.h>
-#include <scree/step/budget.h>
+#include <scree/step/step_report.h>
 #include <scree/boundary/wall_gaps.h>
 
 namespace scree

@@ -3,7 +3,7 @@
 #define scree_momentum_surface_load_h
 
 #include <scree/mesh/background_grid.h>
-#include <scree/bodies/soil_body.h>
+#include <scree/bodies/phases.h>
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/parameter_handler.h>

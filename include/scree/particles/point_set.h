@@ -3,7 +3,7 @@
 #define scree_particles_point_set_h
 
 #include <scree/deal_ii_versions.h>
-#include <scree/particles/point_lists.h>
+#include <scree/particles/cell_points.h>
 #include <scree/simd/records.h>
 
 #include <deal.II/base/mpi.h>
@@ -59,17 +59,8 @@ namespace scree
       last      = TimeStepper::now();
     }
 
-    /// The pass is through with a cell of `n_points`: the time since the cell before was its own.
-    void finish_cell(const unsigned int cell, const unsigned int n_points)
-    {
-      if (!is_timed)
-        return;
-      const auto now = TimeStepper::now();
-      add(cell, std::chrono::duration<double>(now - last).count() / n_points);
-      last = now;
-    }
-
-    /// The same for a range of cells that hold `n_points` in all.
+    /// The pass is through with a range of cells that hold `n_points` in all: the time since those before was their
+    /// own.
     template <typename Iterator>
     void finish_cells(const Iterator &begin, const Iterator &end, const unsigned int n_points)
     {
@@ -202,16 +193,14 @@ namespace scree
              const dealii::types::particle_index id,
              const std::vector<double> &properties)
     {
-      const unsigned int number = table.number_of(cell);
-      const unsigned int slot   = insert_into(number, location, id, dealii::make_array_view(properties));
-      lists.insert(number, slot);
+      insert(table.number_of(cell), location, id, properties);
     }
 
     /// Puts the added points into the lists.
     void finish_adding()
     {
-      if (lists.has_entrants())
-        lists.update();
+      if (!entrants.empty())
+        update_lists();
     }
 
     /// Takes all points off the mesh, before its cells are refined or coarsened.
@@ -231,23 +220,22 @@ namespace scree
     /// Whether all cells() are inner ones, as a step needs it.
     bool is_in_inner_cells() const
     {
-      const auto &filled = lists.filled_cells();
       return std::all_of(filled.begin(), filled.end(), [this](const auto &cell) {
         return use_of(table[cell.in_table].iterator) == CellUse::inner;
       });
     }
 
-    /// This rank's cells that hold points, in an order that depends on the cells' places only. Valid until the points
-    /// move on.
+    /// This rank's cells that hold points, in the order of the curve through the mesh, so that it depends on the cells'
+    /// places only. Valid until the points move on.
     const std::vector<CellPoints<dim>> &cells()
     {
-      return lists.cells();
+      return cell_list;
     }
 
     /// Read-only access to the points.
     const std::vector<ConstCellPoints<dim>> &cells() const
     {
-      return lists.cells();
+      return const_cell_list;
     }
 
     /// The lasting numbers of the points of cells()[cell], in their order: unique in the set over all ranks; a point
@@ -255,7 +243,7 @@ namespace scree
     std::vector<dealii::types::particle_index> ids(const unsigned int cell) const
     {
       const auto &pool                   = particle_handler.get_property_pool();
-      const ConstCellPoints<dim> &points = lists.cells()[cell];
+      const ConstCellPoints<dim> &points = const_cell_list[cell];
       std::vector<dealii::types::particle_index> result;
       for (unsigned int p = 0; p < points.n_points; ++p)
         result.push_back(pool.get_id(points.slots[p]));
@@ -268,7 +256,7 @@ namespace scree
     /// Number of this rank's points.
     unsigned int n_points() const
     {
-      return lists.n_points();
+      return slots.size() - points_ahead;
     }
 
     /// This rank's points that left the mesh since the list was last cleared.
@@ -311,6 +299,28 @@ namespace scree
     using CellIterator = typename CellTable<dim>::Iterator;
     using Record       = PointRecord<dim>;
 
+    /// A cell with points.
+    struct FilledCell
+    {
+      std::uint64_t number;  // of the cell on the curve through the mesh
+      unsigned int in_table; // its number there
+      unsigned int n_points;
+    };
+
+    /// A point that has come into a cell since cells() was made.
+    struct Entrant
+    {
+      bool operator<(const Entrant &other) const
+      {
+        return number < other.number || (number == other.number && turn < other.turn);
+      }
+
+      std::uint64_t number;  // of the cell, as above
+      unsigned int turn;     // among all entrants
+      unsigned int in_table; // the cell's number there
+      unsigned int slot;
+    };
+
     /// A point that is no longer in its cell.
     struct Leaver
     {
@@ -334,16 +344,13 @@ namespace scree
     {
       const CellIterator &cell = table[to].iterator;
       if (cell->is_locally_owned())
-        {
-          insert(to, record);
-          return;
-        }
+        return insert(to, record.location, record.id, record.properties);
       record.cell = cell->id().template to_binary<dim>();
       emigrants[cell->subdomain_id()].push_back(record);
     }
 
-    /// Sends the points that leave and returns those that come. Collective.
-    std::vector<Record> exchange();
+    /// Sends the points that leave, and puts in those that come. Collective.
+    void exchange();
 
     /// Gives the handler a point of the cell with this number in the table; returns its slot.
     unsigned int insert_into(const unsigned int number,
@@ -358,30 +365,55 @@ namespace scree
           ->get_local_index();
     }
 
-    /// The same with a point that becomes an entrant.
-    void insert(const unsigned int number, const Record &record)
+    /// The same with a point that becomes an entrant: it is among cells() after update_lists().
+    void insert(const unsigned int number,
+                const dealii::Point<dim> &location,
+                const dealii::types::particle_index id,
+                const std::vector<double> &properties)
     {
-      const unsigned int slot = insert_into(number, record.location, record.id, record.properties);
-      lists.insert(number, slot);
+      const unsigned int slot = insert_into(number, location, id, dealii::make_array_view(properties));
+      entrants.push_back({ table[number].number, static_cast<unsigned int>(entrants.size()), number, slot });
     }
 
     /// Takes out the points in cells beyond the walls.
     void lose_points_outside();
 
     /// Makes cells() anew, as the handler has them.
-    void list_all_cells()
+    void list_all_cells();
+
+    /// Puts the entrants into the lists and drops empty cells.
+    void update_lists();
+
+    /// Appends a cell with `n` of its slots and those entrants from `entrant` on that are its own to the new lists;
+    /// returns the first one that is not.
+    const Entrant *
+    append_cell(const FilledCell &cell, const unsigned int *first_slot, const Entrant *entrant, const Entrant *end)
     {
-      lose_points_outside();
-      lists.list_all();
-      at_edge = !is_in_inner_cells();
+      new_slots.insert(new_slots.end(), first_slot, first_slot + cell.n_points);
+      unsigned int n_points = cell.n_points;
+      for (; entrant != end && entrant->number == cell.number; ++entrant, ++n_points)
+        new_slots.push_back(entrant->slot);
+      if (n_points > 0)
+        new_filled.push_back({ cell.number, cell.in_table, n_points });
+      return entrant;
     }
+
+    /// Makes cells() from the lists.
+    void point_to_records();
 
     const dealii::Triangulation<dim> &mesh;
     const unsigned int n_properties;
     dealii::Particles::ParticleHandler<dim> particle_handler;
     CellTable<dim> table;
-    PointLists<dim> lists;
     boost::signals2::scoped_connection refinement_signal, repartition_signal;
+
+    // The same points in the same order as in the lists of the handler.
+    std::vector<FilledCell> filled, new_filled;
+    /// Of all points, cell by cell; behind them so many that kernels may look ahead.
+    std::vector<unsigned int> slots = std::vector<unsigned int>(points_ahead), new_slots;
+    std::vector<CellPoints<dim>> cell_list;
+    std::vector<ConstCellPoints<dim>> const_cell_list; // the same cells
+    std::vector<Entrant> entrants;
 
     std::vector<Leaver> leavers;
     std::vector<Record> carried;                           // the leavers, between two cells

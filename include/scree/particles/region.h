@@ -74,16 +74,6 @@ namespace scree
     std::shared_ptr<const LevelSet<dim>> table;
   };
 
-  /// What a material fills of one cube of a lattice.
-  template <int dim>
-  struct CubePart
-  {
-    double filled;               ///< part of the cube that its region covers, m^3 (2D: m^2)
-    double volume;               ///< of the material itself there: less than `filled` in pores
-    dealii::Point<dim> location; ///< centroid of the volume, m
-    bool stays = false;          ///< in its cell, however little it is: free water has a pressure there
-  };
-
   /// A point to be.
   template <int dim>
   struct Seed
@@ -92,7 +82,7 @@ namespace scree
     dealii::Point<dim> location;                                    ///< m
     double volume;                                                  ///< m^3 (2D: per m)
     double filled = 1.;    ///< part of a cube of the lattice that its region covers, of several the sum
-    bool stays    = false; ///< see CubePart
+    bool stays    = false; ///< in its cell, however little it is: free water has a pressure there
 
     static constexpr double least_filled = 0.25; ///< seeds that fill less are slivers
 
@@ -111,9 +101,10 @@ namespace scree
     }
   };
 
-  /// What lies in the cube with this lower corner, m, and width, m.
+  /// What a material fills of the cube with this lower corner, m, and width, m: the seed without its cell, with what
+  /// its region covers as `filled`, m^3 (2D: m^2), of which the volume of the material itself is a part in pores.
   template <int dim>
-  using PartOfCube = std::function<CubePart<dim>(const dealii::Point<dim> &lower, const double width)>;
+  using PartOfCube = std::function<Seed<dim>(const dealii::Point<dim> &lower, const double width)>;
 
   /// The seeds of this rank's cells on a lattice of cubes. Cubes covered by less than a quarter join the nearest fuller
   /// one of their cell.

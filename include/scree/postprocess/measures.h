@@ -2,9 +2,9 @@
 #ifndef scree_postprocess_measures_h
 #define scree_postprocess_measures_h
 
-#include <scree/bodies/water_phase.h>
+#include <scree/bodies/phases.h>
 #include <scree/mesh/discrete_level_set.h>
-#include <scree/step/budget.h>
+#include <scree/step/step_report.h>
 
 #include <list>
 

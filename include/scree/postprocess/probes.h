@@ -5,7 +5,7 @@
 #include <scree/boundary/boundary_conditions.h>
 #include <scree/io/run_folder.h>
 #include <scree/postprocess/measures.h>
-#include <scree/step/budget.h>
+#include <scree/step/step_report.h>
 #include <scree/transfer/water_transfer.h>
 
 namespace scree

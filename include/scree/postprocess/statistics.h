@@ -5,7 +5,7 @@
 #include <scree/boundary/obstacle.h>
 #include <scree/io/progress.h>
 #include <scree/postprocess/measures.h>
-#include <scree/step/budget.h>
+#include <scree/step/step_report.h>
 
 #include <boost/range/adaptor/map.hpp>
 #include <boost/range/iterator_range.hpp>

@@ -4,7 +4,6 @@
 
 #include <scree/pressure/free_surface.h>
 #include <scree/pressure/pressure_solver.h>
-#include <scree/step/budget.h>
 #include <scree/step/step_report.h>
 
 namespace scree

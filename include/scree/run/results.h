@@ -9,6 +9,26 @@
 
 namespace scree
 {
+  /// Keeps the case with its results.
+  void record_case(Parameters &parameters, RunFolder &folder);
+
+  /// Begins the log with what has been made of the case: program, model, size, and what its ground, base and inflows
+  /// are. Collective.
+  template <int dim>
+  void log_case(const Scene<dim> &scene, RunFolder &folder);
+
+  /// Logs of each body that moves its volume, mass, density and stress before the first step, and of the water its
+  /// mass. Collective.
+  template <int dim>
+  void log_released(const Scene<dim> &scene, RunFolder &folder);
+
+  /// Logs volume and mass of what is in the box, of what left it through open walls and of what came in, and the
+  /// largest memory so far. Volumes of soil are those at its density before the first step, so that they add up.
+  /// Collective.
+  /// @param totals of this rank
+  template <int dim>
+  void log_end(const Scene<dim> &scene, const RunBalance<dim> &totals, RunFolder &folder);
+
   /// What a run has come to, beside its points.
   template <int dim>
   struct RunState
@@ -26,8 +46,8 @@ namespace scree
   {
   public:
     /// All are kept by reference.
-    Results(const Parameters &parameters, const Scene<dim> &scene, Scheme<dim> &scheme, RunFolder &folder)
-        : parameters(parameters)
+    Results(const Scene<dim> &scene, Scheme<dim> &scheme, RunFolder &folder)
+        : parameters(scene.parameters)
         , scene(scene)
         , scheme(scheme)
         , folder(folder)

@@ -2,9 +2,8 @@
 #ifndef scree_run_simulation_h
 #define scree_run_simulation_h
 
+#include <scree/io/stop_requests.h>
 #include <scree/particles/partition.h>
-#include <scree/run/case_record.h>
-#include <scree/run/relaxation.h>
 #include <scree/run/results.h>
 
 namespace scree
@@ -23,6 +22,63 @@ namespace scree
     stopped   ///< before, as it was asked to
   };
 
+  /// How a trial of the strength ends.
+  enum class TrialEnd
+  {
+    undecided, ///< also where the run was asked to stop
+    rests,
+    fails
+  };
+
+  /// What the judgement of a trial goes by.
+  struct TrialBounds
+  {
+    double time_scale;   ///< sqrt(height of the soil/gravity), s
+    double speed;        ///< below which soil is at rest, m/s
+    double displacement; ///< of soil that fails, m
+    double maximum_time; ///< s
+  };
+
+  /// Judges from displacement and speed over time whether soil rests or fails.
+  ///
+  /// It fails where its displacement is beyond the bound, or where it does not rest in time. It rests once it has been
+  /// slower than the bound of speed for a time scale.
+  class TrialJudge
+  {
+  public:
+    /// Keeps a copy of the bounds.
+    explicit TrialJudge(const TrialBounds &bounds)
+        : bounds(bounds)
+    {
+    }
+
+    /// Takes the state at a time, s, later than the last one.
+    /// @param displacement m
+    /// @param speed m/s
+    TrialEnd look(const double time, const double displacement, const double speed)
+    {
+      if (displacement > bounds.displacement)
+        return TrialEnd::fails;
+      slow_since = speed < bounds.speed ? std::min(slow_since, time) : std::numeric_limits<double>::infinity();
+      if (slow_since <= time - bounds.time_scale)
+        return TrialEnd::rests;
+      return time >= bounds.maximum_time ? TrialEnd::fails : TrialEnd::undecided;
+    }
+
+  private:
+    const TrialBounds bounds;
+    double slow_since = std::numeric_limits<double>::infinity(); // s; infinite: the last look was at a fast state
+  };
+
+  /// A trial of the strength.
+  struct Trial
+  {
+    TrialEnd end             = TrialEnd::undecided; ///< how it ended
+    double displacement      = 0.;                  ///< that 1 % of the soil's mass exceeds, m
+    double time              = 0.;                  ///< s
+    unsigned long long steps = 0;                   ///< number of time steps
+  };
+
   /// A run: a scene, the scheme that moves it, and its output. Top-level class; no other class depends on it.
   template <int dim>
   class Simulation
@@ -39,11 +95,9 @@ namespace scree
         , scene(parameters, communicator)
         , scheme(scene.make_scheme(timer))
         , partition(scene.grid.triangulation(), scheme->point_sets())
-        , adaptation(scene, *scheme, timer, communicator)
         , clock(parameters.time_step)
-        , control(scene, clock, stop, timer, communicator)
         , output_times(parameters.output, parameters.end_time)
-        , results(parameters, scene, *scheme, folder)
+        , results(scene, *scheme, folder)
         , totals(scene.obstacles.size())
     {
       if (start == Start::resume)
@@ -62,7 +116,7 @@ namespace scree
     /// Largest step, s, of the points as they are.
     double stable_step() const
     {
-      return control.stable_step();
+      return stable_step(clock);
     }
 
     /// Whether no settling at the start was stopped.
@@ -71,14 +125,10 @@ namespace scree
       return is_released;
     }
 
-    /// Damped motion from the state as it is, until the soil rests or fails; then it is stopped. Collective.
+    /// Motion from the state as it is with viscous damping and the pore pressure held, until the soil rests or fails;
+    /// then it is stopped. Records how it went. Collective.
     /// @param displacement of soil that fails, over the height of the slope
-    Trial try_strength(const double displacement)
-    {
-      stop.listen();
-      is_released = false;
-      return relaxation().try_strength(displacement);
-    }
+    Trial try_strength(const double displacement);
 
     /// Writes a checkpoint of the state as it is, to the end. Collective.
     void write_checkpoint()
@@ -134,7 +184,10 @@ namespace scree
     /// What limits the next step: of the points as they are, and of obstacles.
     Speeds limiting_speeds() const
     {
-      return control.limiting_speeds();
+      Speeds all = speeds;
+      for (const Obstacle<dim> &obstacle : scene.obstacles)
+        all.include_point(obstacle.velocity_at(clock.time()).norm());
+      return all;
     }
 
     /// Wall time of the parts of the steps so far.
@@ -170,26 +223,29 @@ namespace scree
   private:
     void initialise();
     void resume();
-    void settle()
+    double stable_step(const TimeStepper &by_clock) const
     {
-      stop.listen();
-      is_released = false;
-      results.add_checks(relaxation().settle());
-      is_released = control.stop_reason() == StopReason::none;
-      // Balances begin at the release; what was lost stays lost.
-      const RunBalance<dim> settled = totals;
-      totals                        = RunBalance<dim>(scene.obstacles.size());
-      totals.n_lost                 = settled.n_lost;
-      totals.lost_mass              = settled.lost_mass;
-      totals.lost_volume            = settled.lost_volume;
-      totals.lost_water_mass        = settled.lost_water_mass;
+      const Speeds all = limiting_speeds();
+      return by_clock.stable_step(scene.grid.cell_size(), all.wave, all.points);
     }
 
-    /// Damped motion of the scene before the release.
-    Relaxation<dim> relaxation()
-    {
-      return { parameters, scene, *scheme, control, folder, [this](const double time_step) { advance(time_step); } };
-    }
+    /// Motion before the release with kinetic damping, behind a gate if there is one, as subsection Settling says; logs
+    /// how it went. Collective.
+    void settle();
+
+    /// Damped motion under gravity until `is_over`, which is asked every few steps and at the end, a time, s, is over,
+    /// or the run is asked to stop. All is at rest and free then, but for a request to stop. Displacements count from
+    /// its start. Collective.
+    /// @param is_over of the clock and the length of the step before, s
+    /// @return the clock
+    TimeStepper relax(const double maximum_time,
+                      const unsigned int steps_between_looks,
+                      const std::function<bool(const TimeStepper &, double)> &is_over);
+
+    std::vector<CheckResult> checks_of_settling(const double unbalanced_force) const;
+
+    /// The displacement that 1 % of the mass exceeds, m. Collective.
+    double displacement() const;
 
     /// Fits scene and scheme to a new partition of the mesh.
     void reinit()
@@ -208,6 +264,21 @@ namespace scree
       partition.repartition([this] { reinit(); });
     }
 
+    /// Makes cells fine around the points as they are, and where they go to, once a point has come to the edge of the
+    /// fine cells. It depends on the state of the run only, so that a resumed run does it in the same step. Collective.
+    void follow_points(const double time_step);
+
+    /// The blocks that are to be fine, of all ranks: around the points and on their way. Collective.
+    Blocks blocks_ahead(const double time_step) const;
+
+    /// Whether a point of any rank has come to the edge of the fine cells. Collective.
+    bool are_points_at_edge() const
+    {
+      const auto sets = scheme->point_sets();
+      const bool own  = std::any_of(sets.begin(), sets.end(), [](const auto *points) { return points->is_at_edge(); });
+      return dealii::Utilities::MPI::max(int(own), communicator) == 1;
+    }
+
     /// Moves on what the scene moves by itself, and puts in what enters.
     void end_step(const double time_step)
     {
@@ -224,6 +295,28 @@ namespace scree
     /// After a step: the points to the cells and ranks they are in now, and the speeds of all ranks for the next step.
     void place_points(const double time_step, const Speeds &of_rank);
 
+    /// Takes the speeds of the points as they are. Collective.
+    void measure_speeds()
+    {
+      const Speeds of_rank = scene.speeds();
+      std::vector<double> largest{ of_rank.wave, of_rank.points };
+      agree_on(largest);
+    }
+
+    /// Takes the largest over ranks; the first two are speeds of waves and points, for the next step. Also agrees on
+    /// whether to stop. Collective.
+    void agree_on(std::vector<double> &largest);
+
+    /// Throws if the motion is unstable.
+    void require_stable_step(const double largest_step, const double first_step) const;
+
+    /// Throws if a point moves by two cells or more in a step, s.
+    void require_stable_speed(const double time_step) const;
+
+    /// Adds what left the box through open walls to the totals, and clears it. Throws if a point left through a closed
+    /// one.
+    void account_for_lost_points();
+
     /// Gathers a checkpoint, which is written while the run goes on. Collective.
     void begin_checkpoint();
     RunState<dim> state() const
@@ -235,23 +328,12 @@ namespace scree
     void write_last();
 
     /// What is reported when a run ends.
-    void summarise(const End end, const double point_updates_before)
-    {
-      const double n_updates = dealii::Utilities::MPI::sum(point_updates - point_updates_before, communicator);
-      progress->conclude(end == End::complete ? "Finished" : "Stopped", clock.time(), n_updates, communicator);
-      progress->summarise(timer, n_updates, scene.water.empty() ? "point" : "soil or water point", communicator);
-      progress->summarise_ranks(
-          seconds_of(timer, TimerSection::waiting), partition.imbalance(), partition.n_repartitions(), communicator);
-      adaptation.summarise(folder);
-      log_balance(scene, totals, folder, communicator);
-      log_peak_memory(folder, communicator);
-      results.complete();
-    }
+    void summarise(const End end, const double point_updates_before);
 
     /// Of the damping of the skeleton, s: it follows the wave speed, as the step does.
     double skeleton_damping_time() const
     {
-      const double speed = control.speeds_of_points().wave / std::sqrt(parameters.time_step.mass_scaling);
+      const double speed = speeds.wave / std::sqrt(parameters.time_step.mass_scaling);
       return parameters.damps_skeleton() && speed > 0.
                  ? parameters.stabilisation.skeleton_damping * scene.grid.cell_size() / speed
                  : 0.;
@@ -263,8 +345,7 @@ namespace scree
       double time             = clock.time();
       unsigned long long step = clock.step();
       archive &time &step;
-      control.serialize(archive);
-      archive &last_time_step &totals;
+      archive &speeds.wave &speeds.points &last_time_step &totals;
       results.serialize(archive);
       for (Obstacle<dim> &obstacle : scene.obstacles)
         archive &obstacle;
@@ -287,15 +368,18 @@ namespace scree
     Scene<dim> scene;
     std::unique_ptr<Scheme<dim>> scheme;
     Partition<dim> partition;
-    MeshAdaptation<dim> adaptation;
 
     TimeStepper clock;
-    StepControl<dim> control;
     OutputTimes output_times;
     Results<dim> results;
 
     std::unique_ptr<Progress> progress; // of run(); null before
     bool progress_is_due = false;       // on some rank
+
+    Speeds speeds;                                 // of the points of all ranks
+    StopReason reason          = StopReason::none; // to stop, of all ranks
+    bool points_at_edge        = false;            // of the fine cells, on any rank
+    unsigned int n_refinements = 0;                // that followed the points
 
     RunBalance<dim> totals;
     std::vector<FacetTractions<dim>> ground_tractions; // of all ranks, at checkpoints

@@ -67,7 +67,12 @@ namespace scree
       const TimedPart part(timer, TimerSection::stress);
       for (Group &group : groups)
         group.soil.to_points(time_step, damping_time, report);
-      project_to_ground(time_step, report.speeds.points);
+      for (auto &body : bodies)
+        if (!body.is_rigid)
+          {
+            Group &group = *std::next(groups.begin(), body.group);
+            group.contact.project_to_boundary(body.points, time_step, report.speeds.points, group.closed_faces);
+          }
     }
     std::vector<FacetTractions<dim>> ground_tractions() const override;
     void set_ground_tractions(const std::vector<FacetTractions<dim>> &tractions) override;
@@ -121,9 +126,6 @@ namespace scree
 
     /// Impulses of rigid ground. Collective.
     void solve_ground(const double time_step, Budget<dim> &budget);
-
-    /// Takes points back that have come below the ground.
-    void project_to_ground(const double time_step, const double largest_speed);
 
     /// Impulses where groups meet.
     void solve_contacts(const double time_step, Budget<dim> &budget)

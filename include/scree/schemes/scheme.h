@@ -2,7 +2,7 @@
 #ifndef scree_schemes_scheme_h
 #define scree_schemes_scheme_h
 
-#include <scree/bodies/water_phase.h>
+#include <scree/bodies/phases.h>
 #include <scree/boundary/inflow/inflow.h>
 #include <scree/contact/contact_parameters.h>
 #include <scree/contact/rigid_surface.h>

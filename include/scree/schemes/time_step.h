@@ -25,10 +25,51 @@ namespace scree
     double mass_scaling      = 1.;     ///< mass that resists acceleration over mass that has weight
 
     /// Declares the subsection and its entries.
-    void add_parameters(dealii::ParameterHandler &prm);
+    void add_parameters(dealii::ParameterHandler &prm)
+    {
+      prm.enter_subsection("Time step");
+      prm.add_parameter("Courant number",
+                        courant,
+                        "Time step times (wave speed + velocity), over the cell size; from 1e-6 to 2. Above auto the "
+                        "stress may oscillate or the run diverge. auto: 0.8 in dry cases with AFLIP, else 0.6.");
+      prm.add_parameter("Advection number",
+                        advection_number,
+                        "Largest distance that a point moves in a time step, over the cell size.",
+                        dealii::Patterns::Double(1e-6, 1));
+      prm.add_parameter("Maximum time step",
+                        maximum,
+                        "s; upper bound of the time step. auto: with water sqrt(0.0005 h/g), but at least 0.01 s; "
+                        "in dry cases sqrt(0.2 h/g) with gravity, none without.");
+      prm.add_parameter(
+          "Mass scaling",
+          mass_scaling,
+          "Inertia of soil and water over the true one, for consolidation and other slow motion; weight and "
+          "all other forces are true. Time steps are longer by its square root, also the maximum of auto; a PIC rate "
+          "of "
+          "auto is smaller by it. Keep 4 H/c times this root below 0.05 H^2/c_v, with layer height H, wave speed c and "
+          "coefficient "
+          "of consolidation c_v.",
+          dealii::Patterns::Double(1));
+      prm.leave_subsection();
+    }
 
     /// Throws EntryError if the Courant number or the maximum is no number.
-    void check() const;
+    void check() const
+    {
+      if (courant != "auto")
+        {
+          const double number = number_of(courant);
+          require_entry(number >= 1e-6 && number <= 2.,
+                        { "Time step", "Courant number", courant },
+                        "write auto, or a number from 1e-6 to 2.");
+        }
+      if (maximum == "auto")
+        return;
+      const double number = number_of(maximum);
+      require_entry(number >= 1e-12 && std::isfinite(number),
+                    { "Time step", "Maximum time step", maximum },
+                    "write auto, or a number from 1e-12 on, in s.");
+    }
 
     /// Sets what is `auto`. In the maximum step dry soil may fall through a tenth of a cell, from rest; with water
     /// through 1/4000 of a cell, or the step is 0.01 s, as its results depend on it. Both maxima grow with the root of
@@ -42,15 +83,7 @@ namespace scree
       choose_maximum(has_water, gravity, cell_size);
     }
 
-    /// The parameters while the pore pressure is held: an `auto` maximum is that of dry soil.
-    TimeStepParameters with_held_pressure(const double gravity, const double cell_size) const
-    {
-      TimeStepParameters held = *this;
-      held.choose_maximum(/* has_water */ false, gravity, cell_size);
-      return held;
-    }
-
-  private:
+    /// The same for the maximum alone.
     void choose_maximum(const bool has_water, const double gravity, const double cell_size)
     {
       constexpr double part_of_cell = 0.1, wet_part_of_cell = 2.5e-4, of_wet_soil = 1e-2;
@@ -74,9 +107,6 @@ namespace scree
     motion
   };
 
-  /// Steps by what bounds them.
-  using StepCounts = std::array<unsigned long long, 3>;
-
   /// The clock of a run: steps that are stable and meet the output times exactly.
   class TimeStepper
   {
@@ -87,26 +117,23 @@ namespace scree
     {
     }
 
-    /// Largest step, s: Courant number times cell size over (wave speed + speed), advection number times cell size over
-    /// speed, and at most the maximum.
+    /// What bounds a step, by StepLimit, s: the maximum, Courant number times cell size over (wave speed + speed), and
+    /// advection number times cell size over speed.
+    std::array<double, 3> bounds(const double cell_size, const double wave_speed, const double speed) const
+    {
+      const auto over = [](const double length, const double velocity) {
+        return velocity > 0 ? length / velocity : std::numeric_limits<double>::infinity();
+      };
+      return { { parameters.maximum_time_step,
+                 over(parameters.courant_number * cell_size, wave_speed / std::sqrt(parameters.mass_scaling) + speed),
+                 over(parameters.advection_number * cell_size, speed) } };
+    }
+
+    /// Largest step, s.
     double stable_step(const double cell_size, const double wave_speed, const double speed) const
     {
       const auto all = bounds(cell_size, wave_speed, speed);
       return *std::min_element(all.begin(), all.end());
-    }
-
-    /// What makes it that large.
-    StepLimit limit(const double cell_size, const double wave_speed, const double speed) const
-    {
-      const auto all = bounds(cell_size, wave_speed, speed);
-      return static_cast<StepLimit>(std::min_element(all.begin(), all.end()) - all.begin());
-    }
-
-    /// The part of the step that waves and motion alone would allow which the maximum leaves.
-    double part_left(const double cell_size, const double wave_speed, const double speed) const
-    {
-      const auto all = bounds(cell_size, wave_speed, speed);
-      return std::min(1., all[0] / std::min(all[1], all[2]));
     }
 
     /// The step, s, from now on: at most the stable one, and shortened so that equal steps end at `due`.
@@ -149,17 +176,6 @@ namespace scree
     }
 
   private:
-    /// The bounds by StepLimit, s.
-    std::array<double, 3> bounds(const double cell_size, const double wave_speed, const double speed) const
-    {
-      const auto over = [](const double length, const double velocity) {
-        return velocity > 0 ? length / velocity : std::numeric_limits<double>::infinity();
-      };
-      return { { parameters.maximum_time_step,
-                 over(parameters.courant_number * cell_size, wave_speed / std::sqrt(parameters.mass_scaling) + speed),
-                 over(parameters.advection_number * cell_size, speed) } };
-    }
-
     const TimeStepParameters parameters;
     double current_time        = 0;
     unsigned long long n_steps = 0;

@@ -2,8 +2,7 @@
 #ifndef scree_seeding_seeding_h
 #define scree_seeding_seeding_h
 
-#include <scree/bodies/soil_body.h>
-#include <scree/bodies/water_phase.h>
+#include <scree/bodies/phases.h>
 
 namespace scree
 {

@@ -4,7 +4,7 @@
 
 #include <scree/mesh/node_rows.h>
 #include <scree/mesh/node_values.h>
-#include <scree/particles/point_lists.h>
+#include <scree/particles/cell_points.h>
 #include <scree/simd/records.h>
 #include <scree/transfer/transfer_parameters.h>
 

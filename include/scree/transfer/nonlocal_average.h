@@ -2,7 +2,7 @@
 #ifndef scree_transfer_nonlocal_average_h
 #define scree_transfer_nonlocal_average_h
 
-#include <scree/bodies/soil_body.h>
+#include <scree/bodies/phases.h>
 #include <scree/mesh/background_grid.h>
 #include <scree/transfer/water_transfer.h>
 

@@ -2,7 +2,7 @@
 #ifndef scree_transfer_skeleton_damping_h
 #define scree_transfer_skeleton_damping_h
 
-#include <scree/bodies/soil_body.h>
+#include <scree/bodies/phases.h>
 #include <scree/tensor/matrix.h>
 #include <scree/transfer/f_bar.h>
 

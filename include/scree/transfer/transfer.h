@@ -2,7 +2,7 @@
 #ifndef scree_transfer_transfer_h
 #define scree_transfer_transfer_h
 
-#include <scree/bodies/soil_body.h>
+#include <scree/bodies/phases.h>
 #include <scree/mesh/node_values.h>
 #include <scree/particles/point_set.h>
 #include <scree/transfer/f_bar.h>

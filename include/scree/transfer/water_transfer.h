@@ -2,8 +2,7 @@
 #ifndef scree_transfer_water_transfer_h
 #define scree_transfer_water_transfer_h
 
-#include <scree/bodies/drag_law.h>
-#include <scree/bodies/water_phase.h>
+#include <scree/bodies/phases.h>
 #include <scree/mesh/node_rows.h>
 #include <scree/mesh/node_values.h>
 #include <scree/mixture/mixture.h>

@@ -46,11 +46,11 @@ namespace scree
   {
     const Region<dim> region(entry_name(parameters.subsection, "Region"), parameters.region);
     const double lower      = face % 2 == 0 ? section : section - spacing; // of the layer behind the section
-    const auto part_of_cube = [&](const Point<dim> &corner, const double width) -> CubePart<dim> {
+    const auto part_of_cube = [&](const Point<dim> &corner, const double width) -> Seed<dim> {
       if (std::abs(corner[face / 2] - lower) > 0.5 * spacing)
-        return { 0., 0., corner };
+        return { {}, corner, 0., 0. };
       const auto [volume, centroid] = region.part_of_cube(corner, width, ground);
-      return { volume, volume, centroid };
+      return { {}, centroid, volume, volume };
     };
     std::vector<std::pair<Point<dim>, double>> own; // location and volume
     on_all_ranks(grid.communicator(), [&] {

@@ -4,7 +4,7 @@
 // whose drag grows with the slip.
 #include "../test.h"
 
-#include <scree/bodies/drag_law.h>
+#include <scree/bodies/phases.h>
 #include <scree/boundary/drag_block.h>
 
 namespace test_drag

@@ -76,11 +76,7 @@ void test(const Scene<dim> &scene)
         const double expected = scene.stress(point.location);
         largest               = std::max(largest, expected);
         for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
-          error = std::max(error,
-                           std::abs(stress[c] + (c == soil_above.vertical_axis() ? 1.
-                                                 : c < 3                         ? K0
-                                                                                 : 0.) *
-                                                    expected));
+          error = std::max(error, std::abs(stress[c] + (c == soil_above.axis ? 1. : c < 3 ? K0 : 0.) * expected));
       });
     }
   if (!scene.soil.empty())

@@ -5,7 +5,6 @@
 #include "../test.h"
 
 #include <scree/advice/advise.h>
-#include <scree/advice/scene_numbers.h>
 
 namespace test_advice_groups
 {
@@ -75,8 +74,7 @@ void test_groups()
 
 void expect_regime(const SceneNumbers &scene, const std::string &expected)
 {
-  require(name_of(regime_of(scene)) == expected,
-          "It is " + std::string(name_of(regime_of(scene))) + ", not " + expected);
+  require(regime_choice(scene).name == expected, "It is " + regime_choice(scene).name + ", not " + expected);
 }
 
 void test_regimes()

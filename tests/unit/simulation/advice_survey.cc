@@ -6,7 +6,6 @@
 
 #include <scree/materials/laws/linear_elastic.h>
 #include <scree/advice/advise.h>
-#include <scree/advice/scene_numbers.h>
 
 namespace test_advice_survey
 {

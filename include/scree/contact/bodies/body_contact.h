@@ -3,7 +3,7 @@
 #define scree_contact_bodies_body_contact_h
 
 #include <scree/contact/bodies/contact_normals.h>
-#include <scree/step/budget.h>
+#include <scree/step/step_report.h>
 
 #include <array>
 #include <list>

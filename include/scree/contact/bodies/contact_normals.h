@@ -2,7 +2,7 @@
 #ifndef scree_contact_bodies_contact_normals_h
 #define scree_contact_bodies_contact_normals_h
 
-#include <scree/bodies/soil_body.h>
+#include <scree/bodies/phases.h>
 #include <scree/boundary/constraints.h>
 #include <scree/contact/contact_parameters.h>
 #include <scree/contact/node_shapes.h>

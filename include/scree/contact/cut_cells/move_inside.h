@@ -2,11 +2,11 @@
 #ifndef scree_contact_cut_cells_move_inside_h
 #define scree_contact_cut_cells_move_inside_h
 
-#include <scree/bodies/water_phase.h>
+#include <scree/bodies/phases.h>
 #include <scree/mesh/background_grid.h>
 #include <scree/mesh/discrete_level_set.h>
 #include <scree/particles/point_set.h>
-#include <scree/step/budget.h>
+#include <scree/step/step_report.h>
 
 namespace scree
 {

@@ -5,7 +5,7 @@
 #include <scree/boundary/constraints.h>
 #include <scree/mesh/node_rows.h>
 #include <scree/pressure/ground_rows.h>
-#include <scree/step/budget.h>
+#include <scree/step/step_report.h>
 
 #include <vector>
 
