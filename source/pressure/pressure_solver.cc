@@ -181,16 +181,51 @@ namespace scree
 
 
   template <int dim>
+  double PressureSolver<dim>::step_of_vertex(const unsigned int i) const
+  {
+    const double change = direction.of_vertices.local_element(i);
+    return i < least_change.size() && change < 0. ? (least_change[i] - solution.of_vertices.local_element(i)) / change
+                                                  : std::numeric_limits<double>::infinity();
+  }
+
+
+  template <int dim>
+  double PressureSolver<dim>::step_of_row(const unsigned int k) const
+  {
+    const GroundRow<dim> &row = (*rows)[k];
+    const double change       = direction.of_rows[k] * row.normal;
+    return row.is_unilateral && change < 0. ? -(solution.of_rows[k] * row.normal) / change
+                                            : std::numeric_limits<double>::infinity();
+  }
+
+
+  template <int dim>
   double PressureSolver<dim>::longest_step() const
   {
     double longest = std::numeric_limits<double>::infinity();
-    for (unsigned int i = 0; i < least_change.size(); ++i)
-      if (const double change = direction.of_vertices.local_element(i); change < 0.)
-        longest = std::min(longest, (least_change[i] - solution.of_vertices.local_element(i)) / change);
+    for (unsigned int i = 0; i < is_held.size(); ++i)
+      longest = std::min(longest, step_of_vertex(i));
     for (unsigned int k = 0; k < direction.of_rows.size(); ++k)
-      if (const double change = direction.of_rows[k] * (*rows)[k].normal; (*rows)[k].is_unilateral && change < 0.)
-        longest = std::min(longest, -(solution.of_rows[k] * (*rows)[k].normal) / change);
+      longest = std::min(longest, step_of_row(k));
     return longest;
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::go_to_first_bound(const double length)
+  {
+    constexpr double rounded = 1e-12; // What reaches its bound within this is on it, whatever rounding leaves.
+    const double reach       = (1. + rounded) * length;
+    for (unsigned int i = 0; i < is_held.size(); ++i)
+      if (step_of_vertex(i) <= reach)
+        solution.of_vertices.local_element(i) = least_change[i];
+      else
+        solution.of_vertices.local_element(i) += length * direction.of_vertices.local_element(i);
+    for (unsigned int k = 0; k < solution.of_rows.size(); ++k)
+      if (step_of_row(k) <= reach)
+        solution.of_rows[k] = Tensor<1, dim>();
+      else
+        solution.of_rows[k] += length * direction.of_rows[k];
   }
 
 
@@ -280,10 +315,8 @@ namespace scree
         find_residual();
         if (Utilities::MPI::sum(energy(), communicator) > energy_before)
           {
-            constexpr double rounded = 1e-12;
-            solution                 = last_solution;
-            solution.sadd(1., (1. + rounded) * longest, direction);
-            project();
+            solution = last_solution;
+            go_to_first_bound(longest);
             find_residual();
           }
         hold();

@@ -119,8 +119,15 @@ namespace scree
     /// Frees what moves along a direction of find_release().
     void release(const Joint &along);
 
-    /// How far `solution` can go along `direction` to its first bound on this rank.
+    /// How far `solution` can go along `direction` until an owned number, or a row, is at its bound.
+    double step_of_vertex(const unsigned int i) const;
+    double step_of_row(const unsigned int k) const;
+
+    /// The smallest of these on this rank.
     double longest_step() const;
+
+    /// Goes as far as that, or the smallest of all ranks; what is at its bound then is exactly there.
+    void go_to_first_bound(const double length);
 
     /// Puts what of `solution` is beyond its bounds on them.
     void project();
