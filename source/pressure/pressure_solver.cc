@@ -104,7 +104,7 @@ namespace scree
       {
         const GroundRow<dim> &row = (*rows)[k];
         target.of_rows[k] += regularisation * row.diagonal * source.of_rows[k];
-        if (row.held == HeldMotion::all)
+        if (row.held == HeldMotion::all || row.held == HeldMotion::along)
           target.of_rows[k] += row.compliance * row.along(source.of_rows[k]);
       }
   }
@@ -159,7 +159,8 @@ namespace scree
       {
         const GroundRow<dim> &row = (*rows)[k];
         const double flow         = residual.of_rows[k] * row.normal;
-        if (row.held == HeldMotion::none && flow > 0. && row.diagonal > 0.)
+        const bool is_at_bound    = row.held == HeldMotion::none || row.held == HeldMotion::along;
+        if (is_at_bound && flow > 0. && row.diagonal > 0.)
           {
             result.of_rows[k] = flow / row.diagonal * row.normal;
             square += weight_of_rows * flow * flow;
@@ -176,7 +177,15 @@ namespace scree
       is_held[i] = is_held[i] && along.of_vertices.local_element(i) == 0.;
     for (unsigned int k = 0; k < along.of_rows.size(); ++k)
       if (along.of_rows[k].norm_square() > 0.)
-        (*rows)[k].held = (*rows)[k].held_while_pressing;
+        (*rows)[k].held = (*rows)[k].held == HeldMotion::along ? HeldMotion::all : HeldMotion::across;
+  }
+
+
+  template <int dim>
+  bool PressureSolver<dim>::presses(const unsigned int k) const
+  {
+    constexpr double rounded = 1e-14;
+    return solution.of_rows[k] * (*rows)[k].normal > rounded * solution.of_rows[k].norm();
   }
 
 
@@ -193,9 +202,10 @@ namespace scree
   double PressureSolver<dim>::step_of_row(const unsigned int k) const
   {
     const GroundRow<dim> &row = (*rows)[k];
+    const bool may_lift       = row.is_unilateral && (row.held == HeldMotion::across || row.held == HeldMotion::all);
     const double change       = direction.of_rows[k] * row.normal;
-    return row.is_unilateral && change < 0. ? -(solution.of_rows[k] * row.normal) / change
-                                            : std::numeric_limits<double>::infinity();
+    return may_lift && change < 0. ? -(solution.of_rows[k] * row.normal) / change
+                                   : std::numeric_limits<double>::infinity();
   }
 
 
@@ -222,10 +232,21 @@ namespace scree
       else
         solution.of_vertices.local_element(i) += length * direction.of_vertices.local_element(i);
     for (unsigned int k = 0; k < solution.of_rows.size(); ++k)
-      if (step_of_row(k) <= reach)
-        solution.of_rows[k] = Tensor<1, dim>();
-      else
+      {
+        const bool is_at_bound = step_of_row(k) <= reach;
         solution.of_rows[k] += length * direction.of_rows[k];
+        if (is_at_bound)
+          lift_off(k);
+      }
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::lift_off(const unsigned int k)
+  {
+    const GroundRow<dim> &row = (*rows)[k];
+    const bool rubs           = row.held == HeldMotion::all || row.held == HeldMotion::along;
+    solution.of_rows[k]       = rubs ? row.along(solution.of_rows[k]) : Tensor<1, dim>();
   }
 
 
@@ -236,8 +257,8 @@ namespace scree
       if (double &value = solution.of_vertices.local_element(i); system.is_unknown(i))
         value = std::max(value, least_change[i]);
     for (unsigned int k = 0; k < solution.of_rows.size(); ++k)
-      if ((*rows)[k].is_unilateral && solution.of_rows[k] * (*rows)[k].normal <= 0.)
-        solution.of_rows[k] = Tensor<1, dim>();
+      if ((*rows)[k].is_unilateral && solution.of_rows[k] * (*rows)[k].normal < 0.)
+        lift_off(k);
   }
 
 
@@ -248,8 +269,8 @@ namespace scree
       if (system.is_unknown(i) && solution.of_vertices.local_element(i) == least_change[i])
         is_held[i] = true;
     for (unsigned int k = 0; k < solution.of_rows.size(); ++k)
-      if (GroundRow<dim> &row = (*rows)[k]; row.is_unilateral && solution.of_rows[k] * row.normal == 0.)
-        row.held = HeldMotion::none;
+      if (GroundRow<dim> &row = (*rows)[k]; row.is_unilateral && !presses(k))
+        row.held = row.held == HeldMotion::all || row.held == HeldMotion::along ? HeldMotion::along : HeldMotion::none;
   }
 
 
@@ -263,7 +284,8 @@ namespace scree
   template <int dim>
   typename PressureSolver<dim>::Iterations PressureSolver<dim>::iterate(const unsigned int most)
   {
-    const MPI_Comm communicator = grid.communicator();
+    constexpr unsigned int most_of_search = 200; // iterations; then the set of what is held is kept
+    const MPI_Comm communicator           = grid.communicator();
     for (Joint *vector : { &preconditioned, &product, &direction })
       vector->clear(source.of_rows.size());
     find_residual();
@@ -282,11 +304,12 @@ namespace scree
                             communicator,
                             ArrayView<double>(sums.data(), sums.size()));
         const auto [free, blocked, projection, energy_before] = sums;
-        result.residual                                       = std::sqrt(free + blocked);
+        const bool searches                                   = result.n < most_of_search;
+        result.residual                                       = std::sqrt(free + (searches ? blocked : 0.));
         if (result.residual <= accepted || result.n == most)
           return result;
 
-        const bool releases = blocked > free;
+        const bool releases = searches && blocked > free;
         if (releases)
           {
             direction = scratch;
@@ -300,7 +323,7 @@ namespace scree
             communicator);
         const double length    = of_ranks[1].sum / of_ranks[0].sum;
         const double longest   = of_ranks[2].min;
-        const bool is_feasible = length < longest;
+        const bool is_feasible = !searches || length < longest;
         if (!is_feasible)
           last_solution = solution;
         solution.sadd(1., length, direction);
@@ -424,21 +447,30 @@ namespace scree
   {
     // A row responds by more than its diagonal. By the sum of its row, those of small facets swing between stick and
     // slip.
-    constexpr double part_of_response = 0.3;
+    constexpr double part_of_response    = 0.3;
+    constexpr double most_over_available = 1e6; // Less friction than that is none.
     for (unsigned int k = 0; k < source.of_rows.size(); ++k)
       {
         GroundRow<dim> &row = (*rows)[k];
-        if (!row.is_unilateral || row.friction == 0. || row.held == HeldMotion::none ||
-            solution.of_rows[k] * row.normal <= 0.)
+        if (!row.is_unilateral || row.friction == 0.)
           continue;
-        const Tensor<1, dim> &traction = solution.of_rows[k];
-        const Tensor<1, dim> along     = row.along(traction),
-                             slip      = row.along(residual.of_rows[k]) + row.compliance * along;
-        const double step              = part_of_response * row.diagonal;
-        const double available         = row.friction * (traction * row.normal);
-        const double needed            = (along + slip / step).norm();
-        row.compliance                 = needed > available ? step * (needed / available - 1.) : 0.;
-        row.held = row.held_while_pressing = HeldMotion::all;
+        if (!presses(k))
+          {
+            solution.of_rows[k] = Tensor<1, dim>();
+            row.held            = HeldMotion::none;
+            row.compliance      = 0.;
+            continue;
+          }
+        Tensor<1, dim> &traction   = solution.of_rows[k];
+        const Tensor<1, dim> along = row.along(traction),
+                             slip  = row.along(residual.of_rows[k]) + row.compliance * along;
+        const double step          = part_of_response * row.diagonal;
+        const double available     = row.friction * (traction * row.normal);
+        const double needed        = (along + slip / step).norm();
+        row.compliance = needed > available ? step * std::min(needed / available - 1., most_over_available) : 0.;
+        if (along.norm() > available)
+          traction -= (1. - available / along.norm()) * along;
+        row.held = HeldMotion::all;
       }
   }
 

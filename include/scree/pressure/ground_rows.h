@@ -40,7 +40,8 @@ namespace scree
   {
     none,   ///< nothing, as it lifts off
     across, ///< that into it
-    all     ///< all; along it as far as the compliance of its friction lets it
+    along,  ///< that along it, as far as the compliance of its friction lets it: the one into it has just lifted off
+    all     ///< both
   };
 
   /// Soil or water at a facet of rigid ground: its mean velocity there must not go into the ground, and by Coulomb's
@@ -56,16 +57,16 @@ namespace scree
     dealii::Tensor<1, dim> normal;   ///< unit, out of the open
     dealii::Tensor<1, dim> flow;     ///< m^dim/s: area times the velocity beside what is admissible, without tractions
     dealii::Tensor<1, dim> traction; ///< on the ground, Pa; holds the initial guess before the solve
-    HeldMotion held                = HeldMotion::none;   ///< in the current solve
-    HeldMotion held_while_pressing = HeldMotion::across; ///< in the current solve, of a unilateral row
-    double compliance              = 0.; ///< flow along the ground over the traction along it, m^dim/(Pa s); 0: sticks
-    double diagonal = 0.; ///< of dt N A^-1 N^T, as if no walls held the nodes, m^dim/(Pa s); see set_mobilities()
+    HeldMotion held   = HeldMotion::none; ///< in the current solve
+    double compliance = 0.;               ///< flow along the ground over the traction along it, m^dim/(Pa s); 0: sticks
+    double diagonal   = 0.; ///< of dt N A^-1 N^T, as if no walls held the nodes, m^dim/(Pa s); see set_mobilities()
 
     /// The part of a vector that the ground holds.
     dealii::Tensor<1, dim> held_part(const dealii::Tensor<1, dim> &vector) const
     {
       return held == HeldMotion::none     ? dealii::Tensor<1, dim>()
              : held == HeldMotion::across ? (vector * normal) * normal
+             : held == HeldMotion::along  ? along(vector)
                                           : vector;
     }
 

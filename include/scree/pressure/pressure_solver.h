@@ -119,6 +119,9 @@ namespace scree
     /// Frees what moves along a direction of find_release().
     void release(const Joint &along);
 
+    /// Whether the traction of a row presses on the ground.
+    bool presses(const unsigned int k) const;
+
     /// How far `solution` can go along `direction` until an owned number, or a row, is at its bound.
     double step_of_vertex(const unsigned int i) const;
     double step_of_row(const unsigned int k) const;
@@ -128,6 +131,9 @@ namespace scree
 
     /// Goes as far as that, or the smallest of all ranks; what is at its bound then is exactly there.
     void go_to_first_bound(const double length);
+
+    /// Takes the traction of a row across the ground away.
+    void lift_off(const unsigned int k);
 
     /// Puts what of `solution` is beyond its bounds on them.
     void project();
