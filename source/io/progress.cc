@@ -193,7 +193,7 @@ namespace scree
                             100 * of_ranks.avg / total,
                             100 * of_ranks.min / total,
                             100 * of_ranks.max / total));
-    folder.record(formatted("imbalance: %.3f (slowest rank over mean, without waiting); repartitioned %u times",
+    folder.record(formatted("imbalance: %.3f (points of the fullest rank over the mean); repartitioned %u times",
                             imbalance,
                             n_repartitions));
   }

@@ -3,20 +3,11 @@
 
 #include <deal.II/distributed/tria_base.h>
 
-#include <ctime>
 #include <utility>
 
 namespace scree
 {
   using namespace dealii;
-
-  double thread_time()
-  {
-    timespec time;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return time.tv_sec + 1e-9 * time.tv_nsec;
-  }
-
 
   namespace
   {

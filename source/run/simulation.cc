@@ -153,16 +153,13 @@ namespace scree
     repartition();
     for ([[maybe_unused]] const PointSet<dim> *points : point_sets())
       Assert(points->is_in_inner_cells(), ExcMessage("A point lies beside cells without nodes."));
-    partition.begin_step();
     StepReport<dim> step;
     if (is_released)
       scene.begin_step(clock.time(), time_step);
     else
       scene.forcing.set_start();
     scheme->to_grid(clock.time());
-    partition.finish(Work::to_nodes);
     scheme->solve(time_step, step);
-    partition.finish(Work::solving);
     if (is_released) // Points in water are put back to where the ground is then.
       for (Obstacle<dim> &obstacle : scene.obstacles)
         obstacle.end_step(time_step);
@@ -203,9 +200,7 @@ namespace scree
           largest[2] = std::max(largest[2], double(points->is_at_edge()));
         }
     }
-    partition.finish(Work::to_points);
     agree_on(largest);
-    partition.resume();
     require_stable_speed(time_step);
     const TimedPart part(timer, TimerSection::sort);
     progress_is_due = largest[3] > 0.;
@@ -219,7 +214,6 @@ namespace scree
       }
     if (is_sorted && scene.grid.follows_points())
       points_at_edge = are_points_at_edge() || points_at_edge;
-    partition.finish(Work::to_nodes);
   }
 
 
@@ -357,11 +351,8 @@ namespace scree
       points->lift();
     scene.grid.refine(blocks, Shares::kept);
     for (PointSet<dim> *points : sets)
-      {
-        points->put_down();
-        points->costs().reinit(scene.grid.triangulation().n_active_cells());
-      }
-    if (partition.is_worth_changing_with_mesh()) // By numbers of points: on a new mesh no cell has been measured.
+      points->put_down();
+    if (partition.is_worth_changing_with_mesh())
       partition.repartition([this] { reinit(); });
     else
       reinit();
@@ -498,33 +489,16 @@ namespace scree
     }
 
 
-    /// What the part of the mass that moves exceeds, within 1 %. Collective.
+    /// What the part of the mass that moves exceeds. Collective.
     /// @param value of a body and a point, not negative
     template <int dim, typename Value>
     double exceeded_by(const std::list<SoilBody<dim>> &bodies, const Value &value, const MPI_Comm communicator)
     {
-      constexpr unsigned int n_bins = 1500;
-      constexpr double bins_per_e   = 100.;
-      double largest                = 0.;
-      for_each_moving_point(
-          bodies, [&](const auto &body, const auto &point) { largest = std::max(largest, value(body, point)); });
-      largest = Utilities::MPI::max(largest, communicator);
-      if (largest == 0.)
-        return largest;
-
-      std::vector<double> masses(n_bins, 0.); // from the largest value down
+      std::vector<PartOfMass> parts;
       for_each_moving_point(bodies, [&](const auto &body, const auto &point) {
-        const double bin = -bins_per_e * std::log(std::max(value(body, point), 1e-100) / largest);
-        masses[std::min(bin, n_bins - 1.)] += point.properties[body.layout.mass];
+        parts.push_back({ value(body, point), point.properties[body.layout.mass] });
       });
-      Utilities::MPI::sum(masses, communicator, masses);
-      double all = 0.;
-      for (const double mass : masses)
-        all += mass;
-      unsigned int bin = 0;
-      for (double above = masses[0]; bin + 1 < n_bins && above <= part_that_moves * all;)
-        above += masses[++bin];
-      return largest * std::exp(-(bin + 0.5) / bins_per_e);
+      return percentile(parts, 1. - part_that_moves, communicator);
     }
 
 

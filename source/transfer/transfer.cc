@@ -139,8 +139,6 @@ namespace scree
     const double keep = kept_velocity(method, pic_rate, time_step);
     MotionReport report;
     LargestSquare largest;
-    CellCosts &costs = body.points.costs();
-    costs.start_pass();
     for (auto begin = cells.begin(), end = begin; begin != cells.end(); begin = end)
       {
         unsigned int n_points = 0;
@@ -154,7 +152,6 @@ namespace scree
             apply_f_bar(f_bar, first, body.material_points(*cell), motion);
           }
         update_state(body, *begin, n_points, time_step, damping_time, report.material);
-        costs.finish_cells(begin, end, n_points);
       }
     report.largest_speed = largest.speed();
     return report;

@@ -187,8 +187,6 @@ namespace scree
   {
     const double keep = kept(time_step);
     LargestSquare largest;
-    CellCosts &costs = water.points().costs();
-    costs.start_pass();
     for (const auto &cell : water.points().cells())
       {
         const Multilinear<dim> pressure = multilinear_of<dim>(vertex_pressure(cell.cell));
@@ -200,7 +198,6 @@ namespace scree
             volume                              = std::max(soil->pore_volume(point.properties), 0.);
             point.properties[water.layout.mass] = water.density * volume;
           });
-        costs.finish_cells(&cell, &cell + 1, cell.n_points);
       }
     return largest.speed();
   }

@@ -111,7 +111,7 @@ namespace scree
 
     /// Records how evenly several ranks have worked. Collective.
     /// @param waiting time that this rank has waited for others, s
-    /// @param imbalance time of the slowest ranks over the mean, without waiting
+    /// @param imbalance points of the fullest rank over the mean
     /// @param n_repartitions how often the mesh was repartitioned
     void summarise_ranks(const double waiting,
                          const double imbalance,

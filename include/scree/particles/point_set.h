@@ -12,7 +12,6 @@
 #include <deal.II/grid/cell_id.h>
 #include <deal.II/particles/property_pool.h>
 
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -25,85 +24,6 @@ namespace scree
   {
     return dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
   }
-
-  /// Processor time of this thread, s: that of others on the machine does not count.
-  double thread_time();
-
-
-  /// What a point of each of this rank's cells costs, measured around the cells in some passes over them.
-  ///
-  /// Costs belong to active cell indices: reinit() clears them when the mesh is partitioned anew.
-  class CellCosts
-  {
-  public:
-    /// Nothing is measured before the first call.
-    void reinit(const unsigned int n_cells)
-    {
-      cells.assign(n_cells, Cell());
-      is_wanted = is_timed = false;
-    }
-
-    /// Asks for the next pass to be timed. Others cost a branch a cell.
-    void time_next_pass()
-    {
-      is_wanted = !cells.empty();
-    }
-
-    /// A pass over the cells begins.
-    void start_pass()
-    {
-      is_timed = is_wanted;
-      if (!is_timed)
-        return;
-      is_wanted = false;
-      last      = TimeStepper::now();
-    }
-
-    /// The pass is through with a range of cells that hold `n_points` in all: the time since those before was their
-    /// own.
-    template <typename Iterator>
-    void finish_cells(const Iterator &begin, const Iterator &end, const unsigned int n_points)
-    {
-      if (!is_timed)
-        return;
-      const auto now = TimeStepper::now();
-      for (auto cell = begin; cell != end; ++cell)
-        add(cell->cell, std::chrono::duration<double>(now - last).count() / n_points);
-      last = now;
-    }
-
-    /// Adds a measurement, s a point.
-    void add(const unsigned int cell, const double seconds)
-    {
-      Cell &own = cells[cell];
-      own.sum += seconds;
-      own.largest = std::max(own.largest, seconds);
-      ++own.n_measurements;
-    }
-
-    /// Seconds a point of the cell: the mean of its measurements without the largest, since the system may have
-    /// interrupted the rank in that one; `otherwise` if there are none.
-    double of_point(const unsigned int cell, const double otherwise) const
-    {
-      if (cell >= cells.size() || cells[cell].n_measurements == 0)
-        return otherwise;
-      const Cell &own = cells[cell];
-      return own.n_measurements == 1 ? own.sum : (own.sum - own.largest) / (own.n_measurements - 1);
-    }
-
-  private:
-    using TimeStepper = std::chrono::steady_clock;
-
-    struct Cell
-    {
-      double sum = 0, largest = 0; // s a point
-      unsigned int n_measurements = 0;
-    };
-
-    std::vector<Cell> cells;
-    bool is_wanted = false, is_timed = false;
-    TimeStepper::time_point last;
-  };
 
   /// What a point carries from cell to cell or rank to rank.
   template <int dim>
@@ -265,18 +185,6 @@ namespace scree
       return lost_points;
     }
 
-    /// What the points cost in the passes that move them, cell by cell.
-    CellCosts &costs()
-    {
-      return cell_costs;
-    }
-
-    /// Read-only access.
-    const CellCosts &costs() const
-    {
-      return cell_costs;
-    }
-
     /// Doubles from one point's properties to the next one's.
     unsigned int stride() const
     {
@@ -422,7 +330,6 @@ namespace scree
     std::vector<LostPoint<dim>> lost_points;
     std::unique_ptr<Lifted> lifted;
     bool at_edge = false;
-    CellCosts cell_costs;
   };
 
 

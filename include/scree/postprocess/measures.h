@@ -214,6 +214,16 @@ namespace scree
                                   const std::vector<double> &fractions,
                                   const MPI_Comm communicator);
 
+  /// The same of numbers that are not negative; 0 without mass. Collective.
+  inline double percentile(const std::vector<PartOfMass> &parts, const double fraction, const MPI_Comm communicator)
+  {
+    double largest = 0.;
+    for (const PartOfMass &part : parts)
+      largest = std::max(largest, part.place);
+    largest = dealii::Utilities::MPI::max(largest, communicator);
+    return largest > 0. ? percentiles(parts, 0., largest * (1. + 1e-9), { fraction }, communicator)[0] : 0.;
+  }
+
   /// The x below which the given fractions of the mass of all bodies, or of the water, lie, m. Collective.
   template <int dim, template <int> class Phase>
   std::vector<double> mass_percentiles(const std::list<Phase<dim>> &phases,
