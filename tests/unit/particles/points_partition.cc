@@ -31,7 +31,7 @@ void test()
   Partition<dim> partition(mesh, { &points });
   const auto is_even = [&] {
     const auto of_ranks = Utilities::MPI::min_max_avg(double(points.n_points()), MPI_COMM_WORLD);
-    return of_ranks.max < 1.02 * of_ranks.avg;
+    return of_ranks.max < 1.06 * of_ranks.avg; // An empty cell counts as a tenth of a point.
   };
   unsigned int n_fits    = 0;
   const auto repartition = [&] { partition.repartition([&] { ++n_fits; }); };
