@@ -33,7 +33,7 @@ TOPICS = {
     "free_water": Topic("Free water", ("dam_break",)),
     "impact_and_gaps": Topic("Impact and gaps", ("impact", "air_gap")),
     "infiltration": Topic("Infiltration", ("wetting_front",)),
-    "waves_and_convergence": Topic("Waves and convergence", ("bar", "manufactured", "pic_courant")),
+    "waves_and_convergence": Topic("Waves and convergence", ("bar", "manufactured")),
     "soil_models": Topic("Soil models and quality of the stress", ("contours", "nor_sand_density", "low_stress", "shear_bands")),
     "experiments": Topic("Experiments", ("aluminium_bars", "martin_moyce")),
     "cost": Topic("Cost", ("advice", "size", "scaling", "peers")),
