@@ -286,11 +286,11 @@ namespace scree
 
 
   template <int dim>
-  SoilAndWater<dim> TwoPhaseMomentum<dim>::stop_at_walls(const MixtureNodes<dim> &nodes,
-                                                         const unsigned int node,
-                                                         SoilAndWater<dim> &impulses,
-                                                         const SoilAndWater<dim> &before,
-                                                         Budget<dim> &balance)
+  SoilAndWater<dim> TwoPhaseMomentum<dim>::solve_node(const MixtureNodes<dim> &nodes,
+                                                      const unsigned int node,
+                                                      SoilAndWater<dim> &impulses,
+                                                      const SoilAndWater<dim> &before,
+                                                      Budget<dim> &balance)
   {
     const double inertial = nodes.pores[node][PoreField<dim>::inertial_drag];
     double &drag          = nodes.pores[node][PoreField<dim>::drag];
@@ -357,7 +357,7 @@ namespace scree
               balance.wall_impulse += kept * (momentum.soil + momentum.water - inertia.water_mass * before.water);
           }
         SoilAndWater<dim> impulses    = impulses_at(nodes, node, time_step, balance);
-        const SoilAndWater<dim> after = stop_at_walls(nodes, node, impulses, before, balance);
+        const SoilAndWater<dim> after = solve_node(nodes, node, impulses, before, balance);
         // A phase that is absent has no motion of its own to change.
         if (nodes.soil[node][Field<dim>::mass] <= 0.)
           before.soil = after.soil;

@@ -249,7 +249,7 @@ namespace scree
             segment.part == face.part && gaps.acts(s, time_step))
           {
             const AtVertices hats = add_face(face.corners, face.normal, depths, open, cell.integrals);
-            const double speed    = gaps.allowed_approach(s, time_step) + cut_cells->velocity(segment) * face.normal;
+            const double speed    = gaps.approach_of_mixture(s, time_step) + cut_cells->velocity(segment) * face.normal;
             for (unsigned int v = 0; v < n_vertices; ++v)
               cell.allowed[v] += speed * hats[v];
           }

@@ -101,7 +101,7 @@ namespace scree
              pores[node][PoreField<dim>::local_solid_volume];
     };
     const auto holds = [&](const unsigned int node, const unsigned int face) {
-      return wall_gaps.holds_water(node, face);
+      return wall_gaps.is_closed_to_water(node, face);
     };
     pressure.find_pair(mixture, volume_of_water, holds, time_step);
     momentum.find_flux_inertia(nodes, excess, time_step);
@@ -115,8 +115,8 @@ namespace scree
     const MixtureNodes<dim> nodes{ soil.field, water_field, pores };
     Budget<dim> &budget = report.balance;
     sum_at_nodes(time_step);
-    if (holds_water)
-      return solve_drained(nodes, time_step, budget);
+    if (water_is_held)
+      return solve_with_held_water(nodes, time_step, budget);
     momentum.predict(nodes, time_step, transfer.kept(time_step), budget); // A v* = m v + dt (f + m g - B^T p^n)
     contact.begin_step(mixture, pressure.free_surface());
     viscosity.apply(nodes, momentum, contact, time_step, budget); // (A + dt K) v** = A v*
@@ -131,8 +131,8 @@ namespace scree
   {
     GroundRows<dim> *rows = contact.find_rows(nodes, mixture, pressure.free_surface(), time_step);
     momentum.find_pressed_nodes(nodes, pressure);
-    pressure.solve(mixture, nodes, rows, holds_water, time_step, budget); // B u = c, N v <= c
-    momentum.correct(nodes, pressure, time_step, budget);                 // v = v** - dt A^-1 (B^T dp + N^T t)
+    pressure.solve(mixture, nodes, rows, water_is_held, time_step, budget); // B u = c, N v <= c
+    momentum.correct(nodes, pressure, time_step, budget);                   // v = v** - dt A^-1 (B^T dp + N^T t)
     contact.count_rows(nodes, time_step, budget);
   }
 

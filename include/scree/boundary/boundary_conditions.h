@@ -24,10 +24,11 @@ namespace scree
       all
     };
 
-    Holds holds                 = Holds::nothing; ///< while the soil does not lift off
-    bool lets_lift_off          = false;          ///< it holds soil that moves into it, with Coulomb friction along it
-    double friction_coefficient = 0;              ///< of one that soil lifts off from; may be infinite
-    double pressure             = 0;              ///< of the water where it holds nothing, Pa
+    Holds holds = Holds::nothing;        ///< while soil does not lift off; of one that it lifts off from, `all`
+                                         ///< makes it act on soil that is near, see Constraints::is_fixed()
+    bool lets_lift_off          = false; ///< it holds soil that moves into it, with Coulomb friction along it
+    double friction_coefficient = 0;     ///< of one that soil lifts off from; may be infinite
+    double pressure             = 0;     ///< of the water where it holds nothing, Pa
   };
 
   /// A kind of wall, as entries have it: its name, or name and number.

@@ -38,7 +38,7 @@ namespace scree
     }
 
     /// Velocity, m/s, relative to the facet, with which the mixture may approach one on which the pressure acts.
-    double allowed_approach(const unsigned int facet, const double time_step) const
+    double approach_of_mixture(const unsigned int facet, const double time_step) const
     {
       return closing_times[facet] > 0. ? closing_gaps[facet] / time_step : 0.;
     }
@@ -46,7 +46,7 @@ namespace scree
     /// Velocity, m/s, with which material at a facet may approach it in a step of `time_step` s: what closes the gap
     /// within it; 0 where there is none.
     /// @param speed m/s, of the material into the ground, relative to that
-    double allowed_approach(const unsigned int facet, const double speed, const double time_step) const
+    double approach_of_material(const unsigned int facet, const double speed, const double time_step) const
     {
       return gaps[facet] > 0. && speed > slow ? gaps[facet] / time_step : 0.;
     }

@@ -97,7 +97,7 @@ namespace scree
     void release(const BodyForces<dim> &forcing, const double time_step);
 
     /// Whether water does not move through a face of the box at a node of this rank's cells that lies on that.
-    bool holds_water(const unsigned int node, const unsigned int face) const
+    bool is_closed_to_water(const unsigned int node, const unsigned int face) const
     {
       const NodeConstraints<dim> *walls = constraints.at(node);
       return walls != nullptr && walls->water_velocity.norm_square() == 0. && !(closes.local_element(node) > 0.) &&

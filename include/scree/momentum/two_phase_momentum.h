@@ -83,13 +83,13 @@ namespace scree
     /// Adds what the walls of a node give to the balance.
     void count_walls(const unsigned int node, const SoilAndWater<dim> &impulses, Budget<dim> &balance) const;
 
-    /// Velocities from impulses; finds the contacts with walls and adds their friction to the impulses. The drag at the
-    /// node's pores becomes that of the flow.
-    SoilAndWater<dim> stop_at_walls(const MixtureNodes<dim> &nodes,
-                                    const unsigned int node,
-                                    SoilAndWater<dim> &impulses,
-                                    const SoilAndWater<dim> &before,
-                                    Budget<dim> &balance);
+    /// The predictor at a node, A v* = r: velocities from impulses; finds the contacts with walls and adds their
+    /// friction to the impulses. The drag at the node's pores becomes that of the flow.
+    SoilAndWater<dim> solve_node(const MixtureNodes<dim> &nodes,
+                                 const unsigned int node,
+                                 SoilAndWater<dim> &impulses,
+                                 const SoilAndWater<dim> &before,
+                                 Budget<dim> &balance);
 
     /// What walls give in the corrector: their reactions to `impulses`, and what friction on sliding soil changes by,
     /// which is added to `change`.

@@ -57,7 +57,7 @@ namespace scree
     /// Empties the nodes but for what the points carry and pictures show before the first step. Collective.
     virtual void read_points() = 0;
 
-    /// Sums over the points of this rank what the step that begins at `time`, s, needs.
+    /// Sums over the points what the step that begins at `time`, s, needs. Collective.
     virtual void to_grid(const double time) = 0;
 
     /// Velocity of the nodes at the end of a step of `time_step` s. Collective.

@@ -62,13 +62,13 @@ namespace scree
         const TimedPart part(timer, TimerSection::stress);
         soil.to_points(time_step, damping_time, report);
       }
-      if (!holds_water)
+      if (!water_is_held)
         move_water(time_step, report);
       project_to_boundary(time_step, report);
     }
     void hold_water(const bool holds) override
     {
-      holds_water = holds;
+      water_is_held = holds;
     }
     NodalForces nodal_forces(const double time_step) const override
     {
@@ -135,7 +135,7 @@ namespace scree
     void find_end_of_step(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget);
 
     /// The solve where water keeps its place: the pressure is that of its points.
-    void solve_drained(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget)
+    void solve_with_held_water(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget)
     {
       load_soil_with_water();
       momentum.predict(nodes, time_step, transfer.kept(time_step), budget);
@@ -165,7 +165,7 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     const BodyForces<dim> &forces;
-    bool holds_water = false;
+    bool water_is_held = false;
     std::list<WaterPhase<dim>> &water;
     const std::uint8_t faces_closed_to_soil, faces_closed_to_water; // of the box
     const std::list<Inflow<dim>> &inflows;

@@ -110,7 +110,7 @@ namespace scree
   struct Budget
   {
     dealii::Tensor<1, dim> wall_impulse; ///< N s
-    WallImpulses<dim> soil_walls,        ///< of each face on the soil, without what is damped, N s
+    WallImpulses<dim> soil_walls,        ///< of each face on the soil, without what is damped, N s; see WallForces
         water_walls;                     ///< of each face on the water, N s
     dealii::Tensor<1, dim> body_impulse; ///< gravity and body force, N s
     dealii::Tensor<1, dim>

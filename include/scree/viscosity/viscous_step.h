@@ -3,6 +3,7 @@
 #define scree_viscosity_viscous_step_h
 
 #include <scree/contact/cut_cells/cut_cell_contact.h>
+#include <scree/momentum/two_phase_momentum.h>
 #include <scree/transfer/velocity_transfer.h>
 
 namespace scree

@@ -45,8 +45,7 @@ namespace scree
       , gaps(gaps)
       , rows(grid)
       , timer(timer)
-      , any_holds_water(
-            std::any_of(surfaces.begin(), surfaces.end(), [](const auto &surface) { return surface.no_slip; }))
+      , any_no_slip(std::any_of(surfaces.begin(), surfaces.end(), [](const auto &surface) { return surface.no_slip; }))
   {
     reinit();
   }
@@ -172,8 +171,8 @@ namespace scree
                                                           const double time_step) const
   {
     const Tensor<1, dim> of_ground = cut_cells->velocity(cut_cells->segments()[row.segment]);
-    const double allowed           = gaps.allowed_approach(row.segment, (velocity - of_ground) * row.normal, time_step);
-    row.is_unilateral              = row.is_unilateral || allowed > 0.; // what has not arrived does not stick yet
+    const double allowed = gaps.approach_of_material(row.segment, (velocity - of_ground) * row.normal, time_step);
+    row.is_unilateral    = row.is_unilateral || allowed > 0.; // what has not arrived does not stick yet
     return of_ground + allowed * row.normal;
   }
 
@@ -249,7 +248,7 @@ namespace scree
     const TimedPart part(timer, TimerSection::bed);
     for (OfSegment &segment : of_segments)
       segment.viscous = Tensor<1, dim>();
-    if (!any_holds_water)
+    if (!any_no_slip)
       return;
     holding.clear();
     // Water in pores is stopped by the grains, and what goes through them does not feel the ground a cell away.

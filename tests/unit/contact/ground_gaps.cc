@@ -26,7 +26,7 @@ void test(const std::string &ground_expression, const unsigned int n_facets)
 
   gaps.clear();
   for (unsigned int f = 0; f < facets.size(); ++f)
-    expect(gaps.allowed_approach(f, 2. * slow, time_step), h / time_step, 1e-9, "approach without a point");
+    expect(gaps.approach_of_material(f, 2. * slow, time_step), h / time_step, 1e-9, "approach without a point");
 
   unsigned int n_far = 0, n_touching = 0;
   for (const double distance : { 0.1 * h, 0.2 * h })
@@ -49,9 +49,9 @@ void test(const std::string &ground_expression, const unsigned int n_facets)
       for (unsigned int f = 0; f < facets.size(); ++f)
         {
           const double gap     = of_facets[f] < 0. ? h : of_facets[f] - 0.6 * spacing; // of one ground in a cell
-          const double allowed = gaps.allowed_approach(f, 1.01 * slow, time_step);
+          const double allowed = gaps.approach_of_material(f, 1.01 * slow, time_step);
           expect(allowed, gap > 0. ? gap / time_step : 0., 1e-6, "allowed approach");
-          expect(gaps.allowed_approach(f, 0.99 * slow, time_step), 0., 0., "allowed approach of what is slow");
+          expect(gaps.approach_of_material(f, 0.99 * slow, time_step), 0., 0., "allowed approach of what is slow");
           n_far += of_facets[f] > 0. && gap > 0.;
           n_touching += gap <= 0.;
         }

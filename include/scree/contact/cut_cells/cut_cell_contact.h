@@ -5,8 +5,7 @@
 #include <scree/boundary/ground_gaps.h>
 #include <scree/contact/cut_cells/traction_solver.h>
 #include <scree/contact/rigid_surface.h>
-#include <scree/momentum/two_phase_momentum.h>
-#include <scree/pressure/ground_rows.h>
+#include <scree/pressure/pore_pressure.h>
 
 #include <list>
 #include <vector>
@@ -44,7 +43,7 @@ namespace scree
     /// Whether any of the surfaces holds free water.
     bool no_slip() const
     {
-      return any_holds_water;
+      return any_no_slip;
     }
 
     /// Begins a step, once it is known which cells have water and unknown pressures: nothing is given yet.
@@ -184,7 +183,7 @@ namespace scree
     const GroundGaps<dim> &gaps;
     GroundRows<dim> rows;
     dealii::TimerOutput &timer;
-    const bool any_holds_water;
+    const bool any_no_slip;
     std::vector<unsigned int> holding;  // segments along which water does not slip in this step, ascending
     std::vector<OfSegment> of_segments; // by segment
     std::vector<char> is_covered;       // the same: whether soil without water is in its cell
