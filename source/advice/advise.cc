@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/advise.h>
 
-#include <sys/resource.h>
 #include <unistd.h>
 
 namespace scree
@@ -13,53 +12,25 @@ namespace scree
     /// Core-seconds of a checkpoint: by itself, and a point; measured over the cases of prm/.
     constexpr double checkpoint_seconds = 1.5e-3, checkpoint_seconds_per_point = 8e-7;
 
-    /// Steps of a run, if nothing is to be written on the way, from its start to any time that is asked for; the times
-    /// must not decrease.
-    class StepsSoFar
-    {
-    public:
-      StepsSoFar(const std::vector<SpeedInterval> &intervals, const TimeStepper &clock, const double cell_size)
-          : intervals(intervals)
-          , clock(clock)
-          , cell_size(cell_size)
-      {
-        Assert(!intervals.empty(), dealii::ExcMessage("Nothing was seen of the run."));
-      }
-
-      double operator()(const double time)
-      {
-        while (time > begin + current().duration && index + 1 < intervals.size())
-          {
-            n += current().duration / step();
-            begin += current().duration;
-            ++index;
-          }
-        return n + (time - begin) / step(); // The last interval goes on.
-      }
-
-      /// Length of the steps at the time that was asked for last, s.
-      double step() const
-      {
-        return clock.stable_step(cell_size, current().wave, current().speed);
-      }
-
-    private:
-      const SpeedInterval &current() const
-      {
-        return intervals[index];
-      }
-
-      const std::vector<SpeedInterval> &intervals;
-      const TimeStepper &clock;
-      const double cell_size;
-      std::size_t index = 0;
-      double begin = 0, n = 0; // of the current interval
-    };
-
-    /// Steps to `end` s, if they are shortened to meet the output times.
-    double count_steps(const OutputParameters &output, const double end, StepsSoFar &so_far)
+    /// Steps to `end` s, if they are shortened to meet the output times. The last interval goes on.
+    /// @param step_of length of the steps of an interval, s
+    template <class StepOf>
+    double count_steps(const OutputParameters &output,
+                       const double end,
+                       const std::vector<SpeedInterval> &intervals,
+                       const StepOf &step_of)
     {
       OutputTimes times(output, end);
+      auto interval = intervals.begin();
+      double begin = 0, n_before = 0; // of the interval; steps if nothing is to be written
+      const auto so_far = [&](const double time) {
+        while (time > begin + interval->duration && interval + 1 != intervals.end())
+          {
+            n_before += interval->duration / step_of(*interval);
+            begin += (interval++)->duration;
+          }
+        return n_before + (time - begin) / step_of(*interval);
+      };
       double n = 0, time = 0;
       while (!times.is_end(time))
         {
@@ -101,10 +72,13 @@ namespace scree
   RunCost cost_of_run(const SceneNumbers &scene, const Observation &seen, const Schedule &schedule)
   {
     const TimeStepper clock(schedule.time_step);
-    StepsSoFar so_far(seen.intervals, clock, scene.cell_size);
+    Assert(!seen.intervals.empty(), ExcMessage("Nothing was seen of the run."));
+    const auto step_of = [&](const SpeedInterval &interval) {
+      return clock.stable_step(scene.cell_size, interval.wave, interval.speed);
+    };
     RunCost cost;
-    cost.first_step     = so_far.step();
-    cost.n_steps        = count_steps(schedule.output, scene.end_time, so_far);
+    cost.first_step     = step_of(seen.intervals.front());
+    cost.n_steps        = count_steps(schedule.output, scene.end_time, seen.intervals, step_of);
     cost.mean_step      = scene.end_time / cost.n_steps;
     const double n_seen = std::min(seen.n_first, cost.n_steps);
     cost.step_seconds   = seen.setup + n_seen * seen.first.seconds + (cost.n_steps - n_seen) * seen.later.seconds;
@@ -191,15 +165,6 @@ namespace scree
 
   namespace
   {
-    /// Largest memory of this process so far, bytes.
-    double peak_memory()
-    {
-      rusage usage;
-      getrusage(RUSAGE_SELF, &usage);
-      return 1024. * usage.ru_maxrss;
-    }
-
-
     /// Watches a run step by step.
     template <int dim>
     class Watch
@@ -250,7 +215,7 @@ namespace scree
       template <class More>
       StepCost steps_while(const More &more, double &n_steps)
       {
-        const auto before       = times_of_parts();
+        auto before             = times_of_parts();
         const double wall_start = MPI_Wtime(), start = processor_time();
         double n         = 0;
         double of_rank_0 = 0; // which decides for all
@@ -266,10 +231,7 @@ namespace scree
         const double wall = MPI_Wtime() - wall_start;
         cost.seconds      = Utilities::MPI::sum(processor_time() - start, communicator) / n;
         for (const auto &[part, seconds] : times_of_parts())
-          {
-            const auto found = before.find(part);
-            cost.parts[part] = cost.seconds * (seconds - (found == before.end() ? 0. : found->second)) / wall;
-          }
+          cost.parts[part] = cost.seconds * (seconds - before[part]) / wall; // 0 s of new ones
         n_steps += n;
         return cost;
       }
@@ -308,7 +270,9 @@ namespace scree
     seen.setup   = std::max(0., first - seen.first.seconds);
     seen.row     = watch.mean_of_several(seconds, [&] { simulation.write_row(); });
     seen.picture = watch.mean_of_several(seconds, [&] { simulation.write_picture(); });
-    seen.memory  = Utilities::MPI::sum(peak_memory(), communicator);
+    Utilities::System::MemoryStats memory; // kB
+    Utilities::System::get_memory_stats(memory);
+    seen.memory = Utilities::MPI::sum(1024. * memory.VmHWM, communicator);
     seen.program_memory *= Utilities::MPI::n_mpi_processes(communicator);
     return seen;
   }

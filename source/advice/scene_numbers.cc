@@ -8,13 +8,6 @@ namespace scree
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// At which the conductivity is defined, m/s^2, whatever the scene's.
-    constexpr double earth_gravity = 9.81;
-  } // namespace
-
-
   Groups groups_of(const SceneNumbers &scene)
   {
     Groups groups;
@@ -30,6 +23,7 @@ namespace scree
     groups.mach_number        = std::sqrt(g * H) / groups.wave_speed;
     if (!scene.has_water)
       return groups;
+    constexpr double earth_gravity   = 9.81; // m/s^2, at which the conductivity is defined, whatever the scene's
     const double unit_weight         = scene.water_density * earth_gravity; // N/m^3
     groups.consolidation_coefficient = scene.conductivity * M / unit_weight;
     groups.drainage_time             = H * H / groups.consolidation_coefficient;
@@ -326,7 +320,7 @@ namespace scree
         { "of stress and pressure", 0.33, 2., "0.03 to 0.08 % of the load at H/h = 20, Terzaghi's column" } },
       { [](const SceneNumbers &scene) { return !scene.falls(); },
         { "of the run-out", 3.8, 1., "", "its law is that of soil that falls and runs out" } },
-      { [](const SceneNumbers &scene) { return scene.has_water && regime_of(scene) == Regime::undrained; },
+      { [](const SceneNumbers &scene) { return scene.has_water && regime_choice(scene).regime == Regime::undrained; },
         { "of the run-out",
           3.8,
           1.,

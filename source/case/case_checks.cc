@@ -398,14 +398,13 @@ namespace scree
 
     Change kind_of(const CaseEntry &entry, const CaseEntry *before, const CaseEntry *now)
     {
-      const auto rule = std::find_if(rules.begin(), rules.end(), [&](const Rule &r) {
-        return r.subsection == entry.subsection && (r.name.empty() || r.name == entry.name);
-      });
-      if (rule == rules.end())
-        return Change::refused;
-      const bool bears_it = rule->change == Change::free ||
-                            (before && now && (!rule->holds_for || rule->holds_for(before->value, now->value)));
-      return bears_it ? rule->change : Change::refused;
+      for (const Rule &rule : rules)
+        if (rule.subsection == entry.subsection && (rule.name.empty() || rule.name == entry.name))
+          return rule.change == Change::free ||
+                         (before && now && (!rule.holds_for || rule.holds_for(before->value, now->value)))
+                     ? rule.change
+                     : Change::refused;
+      return Change::refused;
     }
 
 

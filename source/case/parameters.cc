@@ -256,12 +256,10 @@ namespace scree
     std::set<std::string> seen;
     const auto subsections = file.subsections(prefix);
     for (const std::string &subsection : subsections)
-      {
-        if (!seen.insert(lower_case(subsection)).second)
-          throw EntryError("subsection " + subsection + ": another " + kind +
-                           "'s name differs from it by case only, and so would the columns of the "
-                           "statistics. Write another name.");
-      }
+      if (!seen.insert(lower_case(subsection)).second)
+        throw EntryError("subsection " + subsection + ": another " + kind +
+                         "'s name differs from it by case only, and so would the columns of the "
+                         "statistics. Write another name.");
     return subsections;
   }
 

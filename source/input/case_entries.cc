@@ -5,9 +5,6 @@
 
 #include <boost/property_tree/json_parser.hpp>
 
-#include <array>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
 namespace scree
@@ -21,36 +18,6 @@ namespace scree
                       path,
                       documentation + " The path is relative to the folder of the case file.",
                       Patterns::FileName(Patterns::FileName::input));
-  }
-
-
-  bool is_file_pattern(const std::string &pattern)
-  {
-    return pattern == Patterns::FileName(Patterns::FileName::input).description();
-  }
-
-
-  std::string path_beside(const std::string &reader, const std::string &file)
-  {
-    return file.empty() ? file : (std::filesystem::path(reader).parent_path() / file).string();
-  }
-
-
-  std::string checksum_of_file(const std::string &path)
-  {
-    std::error_code error;
-    std::ifstream in;
-    if (std::filesystem::is_regular_file(path, error)) // A pipe can be read once, and a device may have no end.
-      in.open(path, std::ios::binary);
-    if (!in.is_open())
-      return "";
-    Checksum checksum;
-    std::array<char, 1 << 16> part;
-    while (in.read(part.data(), part.size()) || in.gcount() > 0)
-      checksum.process_bytes(part.data(), in.gcount());
-    std::ostringstream text;
-    text << std::hex << checksum.checksum();
-    return text.str();
   }
 
 
@@ -74,12 +41,6 @@ namespace scree
       for (const auto &[name, child] : tree)
         if (!is_entry(child))
           collect(child, subsection_path(path, name), entries);
-    }
-
-    /// Whether the two words are the same or numbers of the same value.
-    bool same_word(const std::string &first, const std::string &second)
-    {
-      return first == second || number_of(first) == number_of(second);
     }
   } // namespace
 
@@ -127,6 +88,8 @@ namespace scree
       return first.checksum == second.checksum;
     const auto a = Utilities::split_string_list(single_blanks(first.value));
     const auto b = Utilities::split_string_list(single_blanks(second.value));
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_word);
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const std::string &one, const std::string &other) {
+      return one == other || number_of(one) == number_of(other);
+    });
   }
 } // namespace scree

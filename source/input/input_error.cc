@@ -3,6 +3,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/algorithm/string/trim_all.hpp>
+
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
@@ -88,11 +90,7 @@ namespace scree
 
   std::string single_blanks(const std::string &text)
   {
-    std::istringstream in(text);
-    std::string word, result;
-    while (in >> word)
-      result += (result.empty() ? "" : " ") + word;
-    return result;
+    return boost::algorithm::trim_fill_copy(text, " ");
   }
 
 

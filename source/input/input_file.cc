@@ -4,8 +4,10 @@
 #include <deal.II/base/table.h>
 #include <deal.II/base/utilities.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 namespace scree
@@ -23,23 +25,20 @@ namespace scree
           names.begin(), names.end(), [&](const Name &one) { return one.subsection == path && one.name == name; });
     }
 
-    /// Adds a subsection behind those around it, unless it is there.
-    void add_subsection(const std::string &path, std::vector<Name> &subsections)
-    {
-      const std::size_t slash  = path.rfind('/');
-      const std::string around = slash == std::string::npos ? "" : path.substr(0, slash);
-      if (path.empty() || has_name(subsections, around, path.substr(slash + 1)))
-        return;
-      add_subsection(around, subsections);
-      subsections.push_back({ around, path.substr(slash + 1) });
-    }
-
-    /// The subsections of entries, each once, in their order.
+    /// The subsections of entries, each once, behind those around it.
     std::vector<Name> subsections_of(const CaseEntries &entries)
     {
       std::vector<Name> subsections;
       for (const CaseEntry &entry : entries.all())
-        add_subsection(entry.subsection, subsections);
+        {
+          std::string around;
+          for (const std::string &name : Utilities::split_string_list(entry.subsection, '/'))
+            {
+              if (!has_name(subsections, around, name))
+                subsections.push_back({ around, name });
+              around = subsection_path(around, name);
+            }
+        }
       return subsections;
     }
 
@@ -126,17 +125,13 @@ namespace scree
       return "Did you mean " + description(close, path) + '?';
     }
 
-    /// The text between two marks; to the end if there is no second one.
-    std::string between(const std::string &text, const std::string &first, const std::string &second)
-    {
-      const std::size_t begin = text.find(first) + first.size();
-      return text.substr(begin, text.find(second, begin) - begin);
-    }
-
-    /// The choices of a Patterns::Selection.
+    /// The choices of a Patterns::Selection; none of another pattern.
     std::vector<std::string> selection(const std::string &pattern)
     {
-      return Utilities::split_string_list(between(pattern, "[Selection ", " ]"), '|');
+      std::smatch parts;
+      return std::regex_match(pattern, parts, std::regex("\\[Selection (.*) \\]"))
+                 ? Utilities::split_string_list(parts[1], '|')
+                 : std::vector<std::string>();
     }
 
     std::string range_text(const std::string &what, const std::string &lower, const std::string &upper)
@@ -158,45 +153,36 @@ namespace scree
     /// What a pattern of deal.II asks for, in words.
     std::string pattern_as_words(const std::string &pattern)
     {
-      const auto starts_with = [&](const std::string &begin) { return pattern.rfind(begin, 0) == 0; };
-      if (starts_with("[List of <"))
+      static const std::regex list("\\[List of <(.*)> of length (\\d+)\\.\\.\\.(\\d+) .*"),
+          range("\\[(Double|Integer range) (\\S+)\\.\\.\\.(\\S+) .*");
+      std::smatch parts;
+      if (std::regex_match(pattern, parts, list))
         {
-          const std::string tail  = pattern.substr(pattern.rfind(">") + 1);
-          const std::string least = between(tail, "length ", "..."), most = between(tail, "...", " ");
-          const std::string each = pattern_as_words(pattern.substr(10, pattern.rfind(">") - 10));
+          const std::string least = parts[2], most = parts[3], each = pattern_as_words(parts[1]);
           return least +
                  (most.size() > 9 ? " or more"
                   : least == most ? ""
                                   : " or " + most) +
                  " values, separated by commas" + (each.empty() ? "" : ", each " + each);
         }
-      if (starts_with("[Double "))
-        return range_text("a number", between(pattern, "[Double ", "..."), between(pattern, "...", " "));
-      if (starts_with("[Integer range "))
-        return range_text("a whole number", between(pattern, "[Integer range ", "..."), between(pattern, "...", " "));
-      if (starts_with("[Selection "))
-        {
-          std::string choices;
-          for (const auto &choice : selection(pattern))
-            choices += (choices.empty() ? "" : ", ") + quoted(choice);
-          return "one of " + choices;
-        }
-      return starts_with("[Bool") ? "true or false" : "";
+      if (std::regex_match(pattern, parts, range))
+        return range_text(parts[1] == "Double" ? "a number" : "a whole number", parts[2], parts[3]);
+      std::vector<std::string> choices = selection(pattern);
+      std::transform(choices.begin(), choices.end(), choices.begin(), quoted);
+      if (!choices.empty())
+        return "one of " + boost::algorithm::join(choices, ", ");
+      return pattern.rfind("[Bool", 0) == 0 ? "true or false" : "";
     }
 
     /// What to write instead of a `value` that does not match the pattern of the entry, and what the entry means.
     std::string value_remedy(const Name &entry, const std::string &value)
     {
-      std::string remedy = "write " + pattern_as_words(entry.pattern) + '.';
-      if (entry.pattern.rfind("[Selection ", 0) == 0)
-        {
-          std::vector<Name> choices;
-          for (const auto &choice : selection(entry.pattern))
-            choices.push_back({ "", choice });
-          const std::string choice = suggestion(choices, "", value);
-          remedy += (choice.empty() ? "" : " ") + choice;
-        }
-      return remedy + (entry.documentation.empty() ? "" : " Meaning: " + entry.documentation);
+      std::vector<Name> choices;
+      for (const auto &choice : selection(entry.pattern))
+        choices.push_back({ "", choice });
+      const std::string choice = suggestion(choices, "", value);
+      return "write " + pattern_as_words(entry.pattern) + '.' + (choice.empty() ? "" : " " + choice) +
+             (entry.documentation.empty() ? "" : " Meaning: " + entry.documentation);
     }
   } // namespace
 
@@ -221,6 +207,30 @@ namespace scree
 
   namespace
   {
+    /// The path from the working folder of a file that `reader` names.
+    std::string path_beside(const std::string &reader, const std::string &file)
+    {
+      return file.empty() ? file : (std::filesystem::path(reader).parent_path() / file).string();
+    }
+
+    /// The checksum of a file's contents, in hexadecimal digits; empty if it is no regular file that can be read.
+    std::string checksum_of_file(const std::string &path)
+    {
+      std::error_code error;
+      std::ifstream in;
+      if (std::filesystem::is_regular_file(path, error)) // A pipe can be read once, and a device may have no end.
+        in.open(path, std::ios::binary);
+      if (!in.is_open())
+        return "";
+      Checksum checksum;
+      std::array<char, 1 << 16> part;
+      while (in.read(part.data(), part.size()) || in.gcount() > 0)
+        checksum.process_bytes(part.data(), in.gcount());
+      std::ostringstream text;
+      text << std::hex << checksum.checksum();
+      return text.str();
+    }
+
     std::string read_text(const std::string &file, const std::string &remedy)
     {
       std::ifstream in(file);
@@ -368,15 +378,11 @@ namespace scree
     std::vector<NamedFile> result;
     for (Statement &statement : statements)
       if (const CaseEntry *entry = declared.find(statement.path, statement.name);
-          statement.kind == Kind::set && entry && is_file_pattern(entry->pattern))
+          statement.kind == Kind::set && entry &&
+          entry->pattern == Patterns::FileName(Patterns::FileName::input).description())
         {
-          const auto same = std::find_if(result.begin(), result.end(), [&](const NamedFile &named) {
-            return named.subsection == statement.path && named.entry == statement.name;
-          });
-          if (same != result.end())
-            result.erase(same); // The last one counts.
           statement.path_of_file = path_beside(statement.file, statement.value);
-          if (!statement.value.empty())
+          if (!statement.value.empty() && find(statement.path, statement.name) == &statement) // The last one counts.
             result.push_back({ statement.path,
                                statement.name,
                                statement.path_of_file,

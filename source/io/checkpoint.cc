@@ -2,6 +2,8 @@
 #include <scree/io/checkpoint.h>
 #include <scree/version.h>
 
+#include <boost/range/adaptor/map.hpp>
+#include <boost/range/iterator_range.hpp>
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
 
@@ -71,22 +73,22 @@ namespace scree
     }
 
 
-    void write_manifest(const Manifest &manifest, const std::string &folder)
+    void write_manifest(const Checkpoint &checkpoint)
     {
       std::ostringstream text;
       text << std::setprecision(std::numeric_limits<double>::max_digits10) << format_line
-           << "\nprogram: " << manifest.program << "\ndimension: " << manifest.dimension << "\ntime: " << manifest.time
-           << "\nstep: " << manifest.step << '\n';
-      for (const CheckedFile &file : manifest.files)
+           << "\nprogram: " << checkpoint.program << "\ndimension: " << checkpoint.dimension
+           << "\ntime: " << checkpoint.time << "\nstep: " << checkpoint.step << '\n';
+      for (const CheckedFile &file : checkpoint.files)
         text << "file: " << file.name << ' ' << file.size << ' ' << std::hex << file.checksum << std::dec << '\n';
       const std::string content = text.str() + checksum_line(text.str());
-      write_whole_file(folder + '/' + name_of_manifest, content);
-      read_checked_file(folder, checked_file(name_of_manifest, content));
+      write_whole_files({ { checkpoint.folder + '/' + name_of_manifest, content } });
+      read_checked_file(checkpoint.folder, checked_file(name_of_manifest, content));
     }
 
 
     /// Throws FileError if it is not whole or of another format.
-    Manifest read_manifest(const std::string &folder)
+    Checkpoint read_manifest(const std::string &folder)
     {
       const std::string path = folder + '/' + name_of_manifest, text = read_whole_file(path);
       const std::size_t end  = std::min(text.rfind(checksum_label), text.size());
@@ -98,23 +100,24 @@ namespace scree
       std::getline(in, line);
       if (line != format_line)
         throw FileError(path + ": begins with \"" + line + "\", but this program reads \"" + format_line + '"');
-      Manifest manifest;
+      Checkpoint checkpoint;
+      checkpoint.folder = folder;
       in >> label >> std::ws;
-      std::getline(in, manifest.program);
-      in >> label >> manifest.dimension >> label >> manifest.time >> label >> manifest.step;
+      std::getline(in, checkpoint.program);
+      in >> label >> checkpoint.dimension >> label >> checkpoint.time >> label >> checkpoint.step;
       CheckedFile file;
       while (in >> label >> file.name >> file.size >> std::hex >> file.checksum >> std::dec)
-        manifest.files.push_back(file);
-      if (const auto step = step_of(folder); step >= 0 && std::uint64_t(step) != manifest.step)
-        throw FileError(path + ": belongs to step " + std::to_string(manifest.step) + ", not to this folder");
-      return manifest;
+        checkpoint.files.push_back(file);
+      if (const auto step = step_of(folder); step >= 0 && std::uint64_t(step) != checkpoint.step)
+        throw FileError(path + ": belongs to step " + std::to_string(checkpoint.step) + ", not to this folder");
+      return checkpoint;
     }
 
 
     /// The content of the file of that name. Throws FileError if there is none.
     std::string read_file(const Checkpoint &checkpoint, const std::string &name)
     {
-      for (const CheckedFile &file : checkpoint.manifest.files)
+      for (const CheckedFile &file : checkpoint.files)
         if (file.name == name)
           return read_checked_file(checkpoint.folder, file);
       throw FileError(name_of_manifest + ": names no file " + name);
@@ -129,10 +132,7 @@ namespace scree
       for (const auto &entry : fs::directory_iterator(run_folder + "/checkpoint", error))
         if (const long long step = step_of(entry.path()); step >= 0)
           folders[step] = entry.path();
-      std::vector<std::string> result;
-      for (const auto &[step, path] : folders)
-        result.push_back(path);
-      return result;
+      return boost::copy_range<std::vector<std::string>>(folders | boost::adaptors::map_values);
     }
 
 
@@ -145,44 +145,30 @@ namespace scree
     }
 
 
-    std::uint64_t size_of(const Manifest &manifest)
+    std::uint64_t size_of(const Checkpoint &checkpoint)
     {
       std::uint64_t bytes = 0;
-      for (const CheckedFile &file : manifest.files)
+      for (const CheckedFile &file : checkpoint.files)
         bytes += file.size;
       return bytes;
     }
 
 
-    /// Makes the new, empty folder for the files of a checkpoint.
-    void begin_checkpoint(const std::string &unfinished)
-    {
-      std::error_code error;
-      fs::remove_all(unfinished, error);
-      fs::create_directories(unfinished, error);
-      if (error)
-        {
-          errno = error.value();
-          throw error_of_writing(unfinished, 0);
-        }
-    }
-
-
     /// Writes the manifest, reads it again, gives the checkpoint its name and removes older ones than the last.
-    void finish_checkpoint(const Manifest &manifest, const std::string &run_folder, const std::string &unfinished)
+    void finish_checkpoint(const Checkpoint &checkpoint, const std::string &run_folder)
     {
-      write_manifest(manifest, unfinished);
+      write_manifest(checkpoint);
       const std::string folder = run_folder + "/checkpoint",
-                        name   = folder + '/' + name_of_step + std::to_string(manifest.step);
+                        name   = folder + '/' + name_of_step + std::to_string(checkpoint.step);
       // One of that name is of another future: a damaged one, or the run went on from an older one.
       remove_folder(name);
-      if (std::rename(unfinished.c_str(), name.c_str()) != 0)
-        throw error_of_writing(name, size_of(manifest));
+      if (std::rename(checkpoint.folder.c_str(), name.c_str()) != 0)
+        throw error_of_writing(name, size_of(checkpoint));
       sync_folder(folder);
       unsigned int n_older = 0;
       for (const std::string &other : folders_of(run_folder))
         if (const auto step = std::uint64_t(step_of(other));
-            step != manifest.step && (step > manifest.step || n_older++ > 0))
+            step != checkpoint.step && (step > checkpoint.step || n_older++ > 0))
           remove_folder(other);
     }
 
@@ -232,7 +218,7 @@ namespace scree
     std::vector<std::uint64_t>
     read_points(const Checkpoint &checkpoint, const Triangulation<dim> &mesh, const std::vector<PointSet<dim> *> &sets)
     {
-      AssertThrow(checkpoint.manifest.dimension == dim, ExcMessage("It is of another dimension than the case."));
+      AssertThrow(checkpoint.dimension == dim, ExcMessage("It is of another dimension than the case."));
       std::map<CellId, typename Triangulation<dim>::active_cell_iterator> cells;
       for (const auto &cell : mesh.active_cell_iterators())
         if (cell->is_locally_owned())
@@ -263,7 +249,7 @@ namespace scree
           }
         return n_points;
       };
-      for (const CheckedFile &file : checkpoint.manifest.files)
+      for (const CheckedFile &file : checkpoint.files)
         if (file.name.rfind(name_of_points, 0) == 0)
           {
             std::istringstream content(read_checked_file(checkpoint.folder, file));
@@ -282,7 +268,7 @@ namespace scree
     Blocks read_blocks(const Checkpoint &checkpoint)
     {
       Blocks blocks;
-      for (const CheckedFile &file : checkpoint.manifest.files)
+      for (const CheckedFile &file : checkpoint.files)
         if (file.name.rfind(name_of_mesh, 0) == 0)
           {
             const std::string content  = read_checked_file(checkpoint.folder, file);
@@ -345,9 +331,9 @@ namespace scree
         add(name_of_state, out.str());
       }
     const std::string version = version_text();
-    Manifest manifest{ version.substr(0, version.find('\n')), dim, time, step, {} };
+    Checkpoint checkpoint{ unfinished, version.substr(0, version.find('\n')), dim, time, step, {}, {} };
     for (const auto &files : Utilities::MPI::all_gather(communicator, own))
-      manifest.files.insert(manifest.files.end(), files.begin(), files.end());
+      checkpoint.files.insert(checkpoint.files.end(), files.begin(), files.end());
 
     FileJob job;
     job.stages.resize(3);
@@ -358,15 +344,24 @@ namespace scree
     };
     if (rank == 0)
       {
-        job.stages[0] = [=] { begin_checkpoint(unfinished); };
-        job.stages[2] = [=] { finish_checkpoint(manifest, run_folder, unfinished); };
+        job.stages[0] = [=] {
+          std::error_code error;
+          fs::remove_all(unfinished, error);
+          fs::create_directories(unfinished, error);
+          if (error)
+            {
+              errno = error.value();
+              throw error_of_writing(unfinished, 0);
+            }
+        };
+        job.stages[2] = [=] { finish_checkpoint(checkpoint, run_folder); };
       }
     job.failed = [=](const std::string &fault) {
       std::error_code ignored;
       if (rank == 0)
         fs::remove_all(unfinished, ignored);
       std::string message = fault + " The checkpoint at t = " + number_text(time) + " s needs " +
-                            std::to_string(size_of(manifest)) + " bytes in all. ";
+                            std::to_string(size_of(checkpoint)) + " bytes in all. ";
       if (rank == 0)
         {
           std::string names;
@@ -389,11 +384,11 @@ namespace scree
     std::string faults;
     for (const std::string &folder : Utilities::MPI::broadcast(communicator, folders_of(run_folder)))
       {
-        Checkpoint checkpoint{ folder, {}, {} };
+        Checkpoint checkpoint;
         const std::string fault        = fault_of([&] {
-          checkpoint.manifest = read_manifest(folder);
-          checkpoint.entries  = CaseEntries(read_file(checkpoint, name_of_entries));
-          const auto &files   = checkpoint.manifest.files;
+          checkpoint         = read_manifest(folder);
+          checkpoint.entries = CaseEntries(read_file(checkpoint, name_of_entries));
+          const auto &files  = checkpoint.files;
           for (unsigned int f = rank; f < files.size(); f += n_ranks)
             read_checked_file(folder, files[f]);
         });
@@ -420,7 +415,7 @@ namespace scree
     const auto on_all = [&](const std::function<void()> &action) {
       const std::string fault = fault_of(action);
       throw_on_all_ranks(fault.empty() ? ""
-                                       : "The checkpoint " + checkpoint.folder + " of " + checkpoint.manifest.program +
+                                       : "The checkpoint " + checkpoint.folder + " of " + checkpoint.program +
                                              " cannot be read. " + fault,
                          grid.communicator());
     };

@@ -91,14 +91,6 @@ namespace scree
   }
 
 
-  void write_whole_file(const std::string &file, std::string content)
-  {
-    std::vector<FileContent> files;
-    files.emplace_back(file, std::move(content));
-    write_whole_files(files);
-  }
-
-
   void write_whole_files(const std::vector<FileContent> &files)
   {
     const std::string unfinished = ".new";
@@ -261,13 +253,10 @@ namespace scree
 
   bool FolderLock::make()
   {
-    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor < 0)
-      return false;
-    const bool is_whole = ::write(descriptor, text.data(), text.size()) == ssize_t(text.size());
+    Descriptor out(file, O_WRONLY | O_CREAT | O_EXCL);
+    const bool is_whole = out.write(text);
     const int cause     = errno;
-    ::close(descriptor);
-    if (!is_whole)
+    if (out.close() && !is_whole)
       ::unlink(file.c_str());
     errno = cause;
     return is_whole;
@@ -281,19 +270,6 @@ namespace scree
     if (refusal.empty() && found == text) // and not that of a run that ignores this one
       ::unlink(file.c_str());
   }
-
-
-  namespace
-  {
-    std::string fault_of_stages(const std::vector<std::function<void()>> &stages)
-    {
-      return fault_of([&] {
-        for (const auto &write : stages)
-          if (write)
-            write();
-      });
-    }
-  } // namespace
 
 
   std::string fault_of(const std::function<void()> &action)
@@ -320,21 +296,18 @@ namespace scree
       running.wait();
     if (n_ranks == 1)
       for (unsigned int j = 1; j < jobs.size(); ++j)
-        fault_of_stages(jobs[j].stages);
+        fault_of(jobs[j].stages[0]);
   }
 
 
   void BackgroundWriter::begin_stage()
   {
-    // A single rank does not wait between the stages.
-    auto &all       = jobs.front().stages;
-    const auto next = all.begin() + stage;
-    stage           = n_ranks == 1 ? all.size() : std::min<std::size_t>(stage + 1, all.size());
-    std::vector<std::function<void()>> stages;
-    std::move(next, all.begin() + stage, std::back_inserter(stages));
-    running = std::async(std::launch::async, [stages = std::move(stages)]() mutable {
-      const auto freed_here = std::move(stages);
-      return fault_of_stages(freed_here);
+    std::function<void()> write;
+    if (stage < jobs.front().stages.size())
+      write = std::move(jobs.front().stages[stage++]);
+    running = std::async(std::launch::async, [write = std::move(write)]() mutable {
+      const auto freed_here = std::move(write);
+      return freed_here ? fault_of(freed_here) : std::string();
     });
   }
 

@@ -105,20 +105,6 @@ namespace scree
   }
 
 
-  std::string Progress::text_of_limits() const
-  {
-    static const std::pair<StepLimit, const char *> names[] = { { StepLimit::waves, "wave speed" },
-                                                                { StepLimit::motion, "largest speed" },
-                                                                { StepLimit::entry, "Maximum time step" } };
-    std::string text;
-    for (const auto &[limit, name] : names)
-      if (const double share = percent(limit); share > 0)
-        text += (text.empty() ? "" : ", ") + formatted(share < 1 ? "%s (below 1 %%" : "%s (%.0f %%", name, share) +
-                (text.empty() ? " of steps)" : ")");
-    return text;
-  }
-
-
   void
   Progress::conclude(const std::string &how, const double time, const double point_updates, const MPI_Comm communicator)
   {
@@ -133,7 +119,14 @@ namespace scree
                     : ""));
     if (n_steps() == 0)
       return;
-    folder.log("Limits      time step limited by " + text_of_limits());
+    std::string limits;
+    for (const auto &[limit, name] : { std::make_pair(StepLimit::waves, "wave speed"),
+                                       { StepLimit::motion, "largest speed" },
+                                       { StepLimit::entry, "Maximum time step" } })
+      if (const double share = percent(limit); share > 0)
+        limits += (limits.empty() ? "" : ", ") + formatted(share < 1 ? "%s (below 1 %%" : "%s (%.0f %%", name, share) +
+                  (limits.empty() ? " of steps)" : ")");
+    folder.log("Limits      time step limited by " + limits);
     constexpr double most = 50.; // % of the steps
     if (percent(StepLimit::entry) > most && others > 0.)
       folder.log(

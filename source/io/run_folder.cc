@@ -5,7 +5,6 @@
 #include <boost/algorithm/string/trim.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <regex>
@@ -75,39 +74,17 @@ namespace scree
   }
 
 
-  namespace
-  {
-    /// Words of letters, also beyond ASCII, and digits, joined by `_`.
-    std::string joined_words(const std::string &text)
-    {
-      static const std::regex others("[\\x01-/:-@\\[-`{-\\x7F]+");
-      return boost::algorithm::trim_copy_if(std::regex_replace(text, others, "_"),
-                                            [](const char c) { return c == '_'; });
-    }
-
-
-    std::string csv_unit(const std::string &unit)
-    {
-      if (unit == "%")
-        return "percent";
-      std::string result;
-      for (const char c : unit)
-        if (c == '/')
-          result += '_';
-        else if (std::isalnum(static_cast<unsigned char>(c)))
-          result += c;
-      return result;
-    }
-  } // namespace
-
-
   std::string csv_name(const std::string &column)
   {
-    const auto bracket  = column.rfind(" (");
-    const bool has_unit = bracket != std::string::npos && column.back() == ')';
-    const std::string unit =
-        has_unit ? csv_unit(column.substr(bracket + 2, column.size() - bracket - 3)) : std::string();
-    const std::string name = joined_words(lower_case(has_unit ? column.substr(0, bracket) : column));
+    static const std::regex with_unit("(.*) \\((.*)\\)"), not_of_unit("[^A-Za-z0-9/]"),
+        not_of_word("[\\x01-/:-@\\[-`{-\\x7F]+"); // letters may lie beyond ASCII
+    std::smatch parts;
+    const bool has_unit     = std::regex_match(column, parts, with_unit);
+    const std::string words = std::regex_replace(lower_case(has_unit ? parts[1] : column), not_of_word, "_");
+    const std::string name  = boost::algorithm::trim_copy_if(words, [](const char c) { return c == '_'; });
+    std::string unit        = has_unit ? parts[2] : std::string();
+    unit                    = unit == "%" ? "percent" : std::regex_replace(unit, not_of_unit, "");
+    std::replace(unit.begin(), unit.end(), '/', '_');
     return unit.empty() ? name : name + '_' + unit;
   }
 

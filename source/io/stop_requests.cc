@@ -79,38 +79,24 @@ namespace scree
     for (const ListenedSignal &signal : listened)
       if (received == signal.number)
         found = signal.reason;
-    if (found == StopReason::none && !terminate_file.empty())
-      {
-        const Time now = std::chrono::steady_clock::now();
-        if (time_is_over(now))
-          found = StopReason::wall_time_limit;
-        else if (file_is_there(now))
-          found = StopReason::terminate_file;
-      }
-    return found;
-  }
-
-
-  bool StopRequests::time_is_over(const Time now)
-  {
-    if (wall_time_limit == 0)
-      return false;
-    longest_step = std::max(longest_step, seconds(now - last_call));
-    last_call    = now;
+    if (found != StopReason::none || terminate_file.empty())
+      return found;
+    constexpr double seconds_between_looks = 1.;
+    const Time now                         = std::chrono::steady_clock::now();
+    longest_step                           = std::max(longest_step, seconds(now - last_call));
+    last_call                              = now;
     // The longest step had the dearest output so far. Room for this step, what is being written (at most two pictures
     // or checkpoints), the checkpoint after it, and a slower disk.
     const double left = std::max(0.01 * wall_time_limit, 5 * longest_step);
-    return seconds(now - start) + left >= wall_time_limit;
-  }
-
-
-  bool StopRequests::file_is_there(const Time now)
-  {
-    constexpr double seconds_between_looks = 1.;
-    if (seconds(now - last_look) < seconds_between_looks)
-      return false;
-    last_look = now;
-    std::error_code nobody_minds;
-    return std::filesystem::remove(terminate_file, nobody_minds);
+    if (wall_time_limit > 0 && seconds(now - start) + left >= wall_time_limit)
+      found = StopReason::wall_time_limit;
+    else if (seconds(now - last_look) >= seconds_between_looks)
+      {
+        last_look = now;
+        std::error_code nobody_minds;
+        if (std::filesystem::remove(terminate_file, nobody_minds))
+          found = StopReason::terminate_file;
+      }
+    return found;
   }
 } // namespace scree

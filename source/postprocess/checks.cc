@@ -3,6 +3,8 @@
 #include <scree/tensor/invariants.h>
 #include <scree/tensor/vector.h>
 
+#include <boost/algorithm/string/replace.hpp>
+
 namespace scree
 {
   using namespace dealii;
@@ -11,8 +13,31 @@ namespace scree
   {
     constexpr unsigned long long steps_between = 20; // a look passes over all points
 
-    /// What a sound run does not exceed, by Check; doc/output.md derives those of volume and stress.
-    constexpr double bounds[] = { 1.5, 0.1, 1. / 0.6, 1.5, 2., 0., 0. };
+    /// What is said of a check, with numbers of its Suspect in place of FOUND and VALUE.
+    struct Words
+    {
+      double bound;     // of a sound run; doc/output.md derives those of volume and stress
+      const char *text, // of any run
+          *fault;       // of the point, where the bound is exceeded
+    };
+    constexpr Words words[] = { // by Check
+      { 1.5,
+        "fastest point VALUE times the largest 99.9 % quantile of the speeds",
+        "it moves at FOUND m/s, VALUE times the largest 99.9 % quantile of the speeds so far" },
+      { 0.1, "deepest point FOUND m below the bed", "it is FOUND m below the bed, VALUE of a cell" },
+      { 1. / 0.6, "smallest V/V_0 FOUND", "it is compressed to V/V_0 = FOUND" },
+      { 1.5,
+        "largest V/V_0 in contact FOUND",
+        "soil in contact has dilated to V/V_0 = FOUND; write a smaller dilation angle, a larger tension cut-off, or a "
+        "law with a critical state" },
+      { 2.,
+        "largest stress VALUE of rho g H",
+        "p' and the vertical stress reach FOUND Pa, VALUE times rho g H of all the soil" },
+      { 0.,
+        "soil has come FOUND m to a wall of the box",
+        "it has come FOUND m to this wall or up it, which cuts off the run-out: move the corner" },
+      { 0., "points of soil lost FOUND", "FOUND points of soil left the box" }
+    };
 
     /// Normal stress, Pa, tension positive, on planes with the unit normal `axis`.
     template <int dim>
@@ -26,6 +51,42 @@ namespace scree
             normal += 2. * axis[a] * axis[b] * stress[2 + a + b];
         }
       return normal;
+    }
+
+    /// Calls `look(phase, point, name)` with the points of a set, where name() is that of the point.
+    template <typename Phase, int dim, typename Look>
+    void for_each_named(const Phase &phase, const std::string &set, const PointSet<dim> &points, const Look &look)
+    {
+      const auto &cells = points.cells();
+      for (unsigned int c = 0; c < cells.size(); ++c)
+        {
+          unsigned int p = 0;
+          for_each_point(cells[c], [&](const auto &point) {
+            look(phase, point, [&] {
+              return set + ", point " + std::to_string(points.ids(c)[p]) + " at (" + number_text(point.location) +
+                     ") m";
+            });
+            ++p;
+          });
+        }
+    }
+
+    /// The same with the bodies that can move.
+    template <int dim, typename Look>
+    void for_each_named(const std::list<SoilBody<dim>> &bodies, const Look &look)
+    {
+      for (const SoilBody<dim> &body : bodies)
+        if (!body.is_rigid)
+          for_each_named(body, body.name, body.points, look);
+    }
+
+    /// The same with water that has points of its own.
+    template <int dim, typename Look>
+    void for_each_named(const std::list<WaterPhase<dim>> &water, const Look &look)
+    {
+      for (const WaterPhase<dim> &part : water)
+        if (part.carrier() == nullptr)
+          for_each_named(part, "Water", part.points(), look);
     }
   } // namespace
 
@@ -43,31 +104,26 @@ namespace scree
     last_step = step;
     now       = Suspects();
     has_soil  = std::any_of(bodies.begin(), bodies.end(), [](const auto &body) { return !body.is_rigid; });
-    look_at_speeds(bodies, water);
+    look_at_speeds(bodies, usual_speed_of_soil);
+    look_at_speeds(water, usual_speed_of_water);
     look_at_places(bodies, water);
     const double n_all = Utilities::MPI::sum(n_lost, grid.communicator());
     suspect(lost, n_all, n_all, [] { return std::string(); });
-    agree(time);
+    for (Suspect &suspect : now)
+      suspect.time = time;
+    const auto of_ranks = Utilities::MPI::gather(grid.communicator(), now);
+    for (const Suspects &of_rank : of_ranks) // none but on the rank that writes
+      for (unsigned int c = 0; c < n_checks; ++c)
+        if (of_rank[c].value > worst[c].value)
+          worst[c] = of_rank[c];
+    for (unsigned int c = 0; c < n_checks && !of_ranks.empty(); ++c)
+      if (!is_told[c] && worst[c].value > words[c].bound)
+        {
+          is_told[c] = true;
+          folder.log("Check: " + result(c).where + ".");
+        }
     has_looked = true;
     return true;
-  }
-
-
-  template <int dim>
-  template <class Look>
-  void RunChecks<dim>::for_each_named(const std::string &set, const PointSet<dim> &points, const Look &look)
-  {
-    const auto &cells = points.cells();
-    for (unsigned int c = 0; c < cells.size(); ++c)
-      {
-        unsigned int p = 0;
-        for_each_point(cells[c], [&](const auto &point) {
-          look(point, [&] {
-            return set + ", point " + std::to_string(points.ids(c)[p]) + " at (" + number_text(point.location) + ") m";
-          });
-          ++p;
-        });
-      }
   }
 
 
@@ -82,39 +138,26 @@ namespace scree
 
 
   template <int dim>
-  void RunChecks<dim>::look_at_speeds(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water)
+  template <class Phases>
+  void RunChecks<dim>::look_at_speeds(const Phases &phases, double &usual)
   {
-    const double fall  = std::sqrt(2. * gravity.norm() * grid.cell_size()); // slower points do not harm
-    const auto include = [&](double &usual, const auto &for_each) {
-      std::vector<PartOfMass> speeds; // each point counts as one
-      double largest = 0.;
-      for_each([&](const double *velocity, const auto &) {
-        speeds.push_back({ vector_of<dim>(velocity).norm(), 1. });
-        largest = std::max(largest, speeds.back().place);
-      });
-      largest = Utilities::MPI::max(largest, grid.communicator());
-      if (!(largest > fall))
-        return;
-      if (!std::isinf(largest))
-        usual = std::max(usual, percentiles(speeds, 0., largest * (1. + 1e-9), { 0.999 }, grid.communicator())[0]);
-      for_each([&](const double *velocity, const auto &name) {
-        if (const double found = vector_of<dim>(velocity).norm(); found > std::max(usual, fall))
-          suspect(speed, found / std::max(usual, fall), found, name);
-      });
-    };
-    include(usual_speed_of_soil, [&](const auto &act) {
-      for (const SoilBody<dim> &body : bodies)
-        if (!body.is_rigid)
-          for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
-            act(point.properties + body.layout.velocity, name);
-          });
+    const double fall = std::sqrt(2. * gravity.norm() * grid.cell_size()); // slower points do not harm
+    std::vector<PartOfMass> speeds;                                        // each point counts as one
+    double largest = 0.;
+    for_each_named(phases, [&](const auto &phase, const auto &point, const auto &) {
+      speeds.push_back({ vector_of<dim>(point.properties + phase.layout.velocity).norm(), 1. });
+      largest = std::max(largest, speeds.back().place);
     });
-    include(usual_speed_of_water, [&](const auto &act) {
-      for (const WaterPhase<dim> &part : water)
-        if (part.carrier() == nullptr)
-          for_each_named("Water", part.points(), [&](const auto &point, const auto &name) {
-            act(point.properties + part.layout.velocity, name);
-          });
+    largest = Utilities::MPI::max(largest, grid.communicator());
+    if (!(largest > fall))
+      return;
+    if (!std::isinf(largest))
+      usual = std::max(usual, percentiles(speeds, 0., largest * (1. + 1e-9), { 0.999 }, grid.communicator())[0]);
+    auto found = speeds.begin();
+    for_each_named(phases, [&](const auto &, const auto &, const auto &name) {
+      if (found->place > std::max(usual, fall))
+        suspect(speed, found->place / std::max(usual, fall), found->place, name);
+      ++found;
     });
   }
 
@@ -131,7 +174,7 @@ namespace scree
       });
     Utilities::MPI::max(ends, grid.communicator(), ends);
     const double height      = ends[0] + ends[1] + grid.cell_size();
-    const auto look_at_depth = [&](const auto &point, const auto &name) {
+    const auto look_at_depth = [&](const auto &, const auto &point, const auto &name) {
       const double deepest = -grid.cell_size() * now[depth].value;
       if (bed == nullptr || bed->least_distance(point.cell) >= deepest)
         return;
@@ -139,21 +182,17 @@ namespace scree
       if (distance < 0.)
         suspect(depth, -distance / grid.cell_size(), -distance, name);
     };
-    for (const WaterPhase<dim> &part : water)
-      if (part.carrier() == nullptr)
-        for_each_named("Water", part.points(), look_at_depth);
-    for (const SoilBody<dim> &body : bodies)
-      if (!body.is_rigid)
-        for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
-          const double ratio = body.density * point.properties[body.layout.volume] / point.properties[body.layout.mass];
-          const double *sigma = point.properties + body.layout.stress;
-          // Passive pressure raises p' alone, and arching the vertical stress alone.
-          const double both = std::min(mean_effective_stress(sigma), g > 0. ? -along(gravity / g, sigma) : 0.);
-          suspect(shrinkage, 1. / ratio, ratio, name);
-          if (g > 0.)
-            suspect(stress, both / (body.density * g * height), both, name);
-          look_at_depth(point, name);
-        });
+    for_each_named(water, look_at_depth);
+    for_each_named(bodies, [&](const auto &body, const auto &point, const auto &name) {
+      const double ratio  = body.density * point.properties[body.layout.volume] / point.properties[body.layout.mass];
+      const double *sigma = point.properties + body.layout.stress;
+      // Passive pressure raises p' alone, and arching the vertical stress alone.
+      const double both = std::min(mean_effective_stress(sigma), g > 0. ? -along(gravity / g, sigma) : 0.);
+      suspect(shrinkage, 1. / ratio, ratio, name);
+      if (g > 0.)
+        suspect(stress, both / (body.density * g * height), both, name);
+      look_at_depth(body, point, name);
+    });
     for (const SoilBody<dim> &body : bodies)
       if (!body.is_rigid)
         look_at_dilation(body);
@@ -176,13 +215,11 @@ namespace scree
       return (face % 2 == 0 ? grid.lower_corner() : grid.upper_corner())[face / 2];
     };
     const auto for_each_pair = [&](const auto &act) { // of a point and a side wall
-      for (const SoilBody<dim> &body : bodies)
-        if (!body.is_rigid)
-          for_each_named(body.name, body.points, [&](const auto &point, const auto &name) {
-            for (unsigned int face = 0; face < 2 * dim; ++face)
-              if (face / 2 != upward && !walls->is_open(face))
-                act(point.location, face, std::abs(point.location[face / 2] - place_of(face)), name);
-          });
+      for_each_named(bodies, [&](const auto &, const auto &point, const auto &name) {
+        for (unsigned int face = 0; face < 2 * dim; ++face)
+          if (face / 2 != upward && !walls->is_open(face))
+            act(point.location, face, std::abs(point.location[face / 2] - place_of(face)), name);
+      });
     };
     if (!has_looked)
       {
@@ -194,11 +231,10 @@ namespace scree
           if (distance < h)
             top_at_start[face] = std::max(top_at_start[face], height_of(place));
         });
-        for (unsigned int face = 0; face < 2 * dim; ++face)
-          {
-            front_at_start[face] = Utilities::MPI::min(front_at_start[face], grid.communicator());
-            top_at_start[face]   = Utilities::MPI::max(top_at_start[face], grid.communicator());
-          }
+        for (double &front : front_at_start)
+          front = Utilities::MPI::min(front, grid.communicator());
+        for (double &top : top_at_start)
+          top = Utilities::MPI::max(top, grid.communicator());
       }
     // Soil that stands at a wall at the start may slide down along it: only its way up shows that the wall stops it.
     for_each_pair([&](const Point<dim> &place, const unsigned int face, const double distance, const auto &name) {
@@ -236,56 +272,26 @@ namespace scree
 
 
   template <int dim>
-  void RunChecks<dim>::agree(const double time)
+  CheckResult RunChecks<dim>::result(const unsigned int check) const
   {
-    for (Suspect &suspect : now)
-      suspect.time = time;
-    const auto of_ranks = Utilities::MPI::gather(grid.communicator(), now);
-    for (const Suspects &of_rank : of_ranks) // none but on the rank that writes
-      for (unsigned int c = 0; c < n_checks; ++c)
-        if (of_rank[c].value > worst[c].value)
-          worst[c] = of_rank[c];
-    for (unsigned int c = 0; c < n_checks && !of_ranks.empty(); ++c)
-      if (!is_told[c] && is_wrong(c, worst[c].value))
-        {
-          is_told[c] = true;
-          folder.log("Check: " + text(c, worst[c]) + ".");
-        }
-  }
-
-
-  template <int dim>
-  bool RunChecks<dim>::is_wrong(const unsigned int check, const double value)
-  {
-    return value > bounds[check];
-  }
-
-
-  template <int dim>
-  std::string RunChecks<dim>::text(const unsigned int check, const Suspect &suspect)
-  {
-    const std::string when  = "t = " + short_text(suspect.time) + " s: ";
-    const std::string found = short_text(suspect.found), value = short_text(suspect.value);
-    const std::string which = suspect.point + ", " + when;
-    switch (check)
-      {
-      case speed:
-        return which + "it moves at " + found + " m/s, " + value +
-               " times the largest 99.9 % quantile of the speeds so far";
-      case depth:
-        return which + "it is " + found + " m below the bed, " + value + " of a cell";
-      case shrinkage:
-        return which + "it is compressed to V/V_0 = " + found;
-      case dilation:
-        return which + "soil in contact has dilated to V/V_0 = " + found +
-               "; write a smaller dilation angle, a larger tension cut-off, or a law with a critical state";
-      case stress:
-        return which + "p' and the vertical stress reach " + found + " Pa, " + value + " times rho g H of all the soil";
-      case wall:
-        return which + "it has come " + found + " m to this wall or up it, which cuts off the run-out: move the corner";
-      default:
-        return when + found + " points of soil left the box";
-      }
+    const Suspect &at     = worst[check];
+    const double bound    = words[check].bound;
+    const bool has_weight = has_soil && gravity.norm() > 0.;
+    const bool applies[] = { true, bed != nullptr, has_soil, at.value > 1., has_weight, has_weight && walls, has_soil };
+    const std::string found = short_text(check == shrinkage && at.value <= 0. ? 1. : at.found),
+                      value = short_text(check == speed ? std::max(1., at.value) : at.value);
+    const auto in_words     = [&](const std::string &text) {
+      using boost::algorithm::replace_all_copy;
+      return replace_all_copy(replace_all_copy(text, "FOUND", found), "VALUE", value);
+    };
+    CheckResult result{ applies[check] ? in_words(words[check].text) : "",
+                        check == depth ? short_text(bound * grid.cell_size()) + " m"
+                                       : short_text(check == shrinkage ? 1. / bound : bound),
+                        at.value > bound };
+    if (result.is_exceeded)
+      result.where =
+          at.point + (check == lost ? "" : ", ") + "t = " + short_text(at.time) + " s: " + in_words(words[check].fault);
+    return result;
   }
 
 
@@ -293,33 +299,9 @@ namespace scree
   std::vector<CheckResult> RunChecks<dim>::results() const
   {
     std::vector<CheckResult> list;
-    const auto add = [&](const Check check, const bool applies, const std::string &value, const std::string &bound) {
-      const bool is_exceeded = is_wrong(check, worst[check].value);
-      if (has_looked && applies)
-        list.push_back({ value, bound, is_exceeded, is_exceeded ? text(check, worst[check]) : "" });
-    };
-    const std::string deepest  = short_text(worst[depth].found);
-    const std::string fastest  = short_text(std::max(1., worst[speed].value));
-    const std::string smallest = short_text(worst[shrinkage].value > 0. ? worst[shrinkage].found : 1.);
-    const std::string largest  = short_text(worst[dilation].found);
-    const std::string highest  = short_text(worst[stress].value);
-    const bool has_dilated = worst[dilation].value > 1., has_weight = has_soil && gravity.norm() > 0.;
-    add(depth,
-        bed != nullptr,
-        "deepest point " + deepest + " m below the bed",
-        short_text(bounds[1] * grid.cell_size()) + " m");
-    add(lost, has_soil, "points of soil lost " + short_text(worst[lost].found), "0");
-    add(wall,
-        has_weight && walls != nullptr,
-        "soil has come " + short_text(worst[wall].found) + " m to a wall of the box",
-        "0");
-    add(speed,
-        true,
-        "fastest point " + fastest + " times the largest 99.9 % quantile of the speeds",
-        short_text(bounds[0]));
-    add(shrinkage, has_soil, "smallest V/V_0 " + smallest, short_text(1. / bounds[2]));
-    add(dilation, has_dilated, "largest V/V_0 in contact " + largest, short_text(bounds[3]));
-    add(stress, has_weight, "largest stress " + highest + " of rho g H", short_text(bounds[4]));
+    for (const Check check : { depth, lost, wall, speed, shrinkage, dilation, stress })
+      if (const CheckResult found = result(check); has_looked && !found.text.empty())
+        list.push_back(found);
     return list;
   }
 
@@ -407,20 +389,6 @@ namespace scree
 
 
   template <int dim>
-  CheckResult BalanceChecks<dim>::check_of_motion() const
-  {
-    const double waited = std::abs(work * (last_time - start_time) - work_in_time); // J s
-    if (!(std::abs(work) > least_energy()) || waited == 0.)
-      return { "kinetic energy with \"Mass scaling\" not judged: hardly any work", "" };
-    const double share = motion / waited;
-    return { "mean kinetic energy " + short_text(100. * share) + " % of the work, with masses times " +
-                 short_text(mass_scaling) + "; " + short_text(100. * share / mass_scaling) + " % with true ones",
-             short_text(100. * bound_of_motion) + " %, else \"Mass scaling\" is too large",
-             !(share <= bound_of_motion) };
-  }
-
-
-  template <int dim>
   std::vector<CheckResult> BalanceChecks<dim>::results() const
   {
     std::vector<CheckResult> list;
@@ -440,8 +408,15 @@ namespace scree
         list.push_back(
             { "numerical dissipation " + short_text(100. * dissipation / released) + " % of the released energy", "" });
       }
-    if (mass_scaling > 1.)
-      list.push_back(check_of_motion());
+    const double waited = std::abs(work * (last_time - start_time) - work_in_time), share = motion / waited; // J s, -
+    if (mass_scaling > 1. && (!(std::abs(work) > least_energy()) || waited == 0.))
+      list.push_back({ "kinetic energy with \"Mass scaling\" not judged: hardly any work", "" });
+    else if (mass_scaling > 1.)
+      list.push_back({ "mean kinetic energy " + short_text(100. * share) + " % of the work, with masses times " +
+                           short_text(mass_scaling) + "; " + short_text(100. * share / mass_scaling) +
+                           " % with true ones",
+                       short_text(100. * bound_of_motion) + " %, else \"Mass scaling\" is too large",
+                       !(share <= bound_of_motion) });
     return list;
   }
 

@@ -48,147 +48,221 @@ namespace scree
 
   namespace
   {
-    /// A new point of the output; put() fills its rows one after the other.
-    template <int dim>
-    class Rows
+    /// A picture: fields at one time that have been gathered to be written. Patches with their names, as deal.II's
+    /// writers take them: points are patches of dimension 0.
+    template <int patch_dim, int dim>
+    class Picture : public DataOutInterface<patch_dim, dim>
     {
+      using Interpretation = DataComponentInterpretation::DataComponentInterpretation;
+      using Range          = std::tuple<unsigned int, unsigned int, std::string, Interpretation>;
+
     public:
-      Rows(PatchOutput<0, dim> &output, const Point<dim> &location)
-          : values(output.values)
-          , begin(values.size())
+      using Patch = DataOutBase::Patch<patch_dim, dim>; ///< geometry and data of a point or cell
+
+      static constexpr Interpretation vector =
+          DataComponentInterpretation::component_is_part_of_vector; ///< components X, Y, Z
+      static constexpr Interpretation tensor =
+          DataComponentInterpretation::component_is_part_of_tensor; ///< components XX, XY, XZ, YX, ...
+
+      std::vector<Patch> patches;     ///< patches to be written
+      std::vector<std::string> names; ///< labels of the rows of a patch's data
+      std::vector<Point<dim>> points; ///< points to be written, of which piece() makes patches
+      std::vector<float> values;      ///< the rows of the points' data, one point after the other
+
+      /// The name of a field in the files, `pore_pressure [Pa]`; with the unit "-" it is `porosity`.
+      /// @param name words joined by `_`
+      static std::string label(const std::string &name, const std::string &unit)
       {
-        output.points.push_back(location);
-        values.resize(begin + output.names.size());
+        return unit == "-" ? name : name + " [" + unit + ']';
       }
 
+      /// Adds a field: of the rows of the patches' data one for a scalar, `dim` for a vector, nine for a tensor.
+      void add(const std::string &name,
+               const std::string &unit,
+               const Interpretation kind = DataComponentInterpretation::component_is_scalar)
+      {
+        const unsigned int n_rows = kind == vector ? dim : kind == tensor ? 9 : 1;
+        if (n_rows > 1)
+          ranges.emplace_back(names.size(), names.size() + n_rows - 1, label(name, unit), kind);
+        names.insert(names.end(), n_rows, label(name, unit));
+      }
+
+      /// Adds a value to the last point.
       void put(const double value)
       {
-        values[begin + row++] = value;
+        values.push_back(value);
       }
-      void put(const Tensor<1, dim> &vector)
+      /// Adds a vector.
+      void put(const Tensor<1, dim> &value)
       {
         for (unsigned int a = 0; a < dim; ++a)
-          put(vector[a]);
+          put(value[a]);
       }
-      void set(const unsigned int any_row, const double value)
+
+      /// Text of this rank's `.vtu`.
+      std::string piece()
       {
-        values[begin + any_row] = value;
+        DataOutBase::VtkFlags flags;
+        flags.compression_level = decltype(flags.compression_level)::best_speed; // the enumeration moved in deal.II 9.5
+        this->set_flags(flags);
+        patches.reserve(patches.size() + points.size());
+        auto value = values.begin();
+        for (const auto &point : points)
+          {
+            Patch &patch      = patches.emplace_back();
+            patch.patch_index = patches.size() - 1;
+            patch.vertices[0] = point;
+            patch.data.reinit(names.size(), 1);
+            for (unsigned int row = 0; row < names.size(); ++row)
+              patch.data(row, 0) = *value++;
+          }
+        std::ostringstream text;
+        this->write_vtu(text);
+        std::string vtu = with_component_names(text.str());
+        if (patches.empty()) // deal.II writes no element Points then, but VTK asks for one.
+          vtu.insert(vtu.find("<Cells>"), R"(<Points><DataArray type="Float32" NumberOfComponents="3"/></Points>)");
+        return vtu;
+      }
+
+      /// Text of the `.pvtu` that names the `pieces` of all ranks.
+      std::string record(const std::vector<std::string> &pieces) const
+      {
+        std::ostringstream text;
+        this->write_pvtu_record(text, pieces);
+        return with_component_names(text.str());
       }
 
     private:
-      std::vector<float> &values;
-      const std::size_t begin;
-      unsigned int row = 0;
+      /// VTK's text with names for the components of vectors and tensors, which deal.II does not write.
+      std::string with_component_names(std::string text) const
+      {
+        for (const auto &[first, last, label, interpretation] : ranges)
+          {
+            const bool is_vector    = interpretation == vector;
+            const std::string array = "Name=\"" + label + "\" NumberOfComponents=\"" + (is_vector ? '3' : '9') + '"';
+            std::string attributes;
+            for (unsigned int i = 0; i < (is_vector ? 3 : 9); ++i)
+              attributes += " ComponentName" + std::to_string(i) + "=\"" +
+                            (is_vector ? std::string() : std::string(1, "XYZ"[i / 3])) + "XYZ"[i % 3] + '"';
+            if (const auto found = text.find(array); found != std::string::npos)
+              text.insert(found + array.size(), attributes);
+          }
+        return text;
+      }
+
+      const std::vector<Patch> &get_patches() const override
+      {
+        return patches;
+      }
+      std::vector<std::string> get_dataset_names() const override
+      {
+        return names;
+      }
+      std::vector<Range> get_nonscalar_data_ranges() const override
+      {
+        return ranges;
+      }
+
+      std::vector<Range> ranges;
     };
 
+    /// The points of soil or water in a picture.
     template <int dim>
-    void put_state(Rows<dim> &rows, const SoilBody<dim> &body, const double *properties, const unsigned int number)
+    using PointPicture = std::shared_ptr<Picture<0, dim>>;
+
+    template <int dim>
+    void put_state(Picture<0, dim> &output, const SoilBody<dim> &body, const double *properties)
     {
       const double *stress = properties + body.layout.stress;
-      rows.put(vector_of<dim>(properties + body.layout.velocity));
+      output.put(vector_of<dim>(properties + body.layout.velocity));
       // plane strain: no out-of-plane shear
       const double xy = stress[3], xz = dim == 3 ? stress[dim + 1] : 0., yz = dim == 3 ? stress[dim + 2] : 0.;
       for (const double value : { stress[0], xy, xz, xy, stress[1], yz, xz, yz, stress[2] })
-        rows.put(value);
-      rows.put(mean_effective_stress(stress));
-      rows.put(deviatoric_stress<dim>(stress));
-      rows.put(stress_ratio<dim>(stress));
-      rows.put(properties[body.layout.mass]);
-      rows.put(properties[body.layout.volume]);
-      rows.put(number);
+        output.put(value);
+      output.put(mean_effective_stress(stress));
+      output.put(deviatoric_stress<dim>(stress));
+      output.put(stress_ratio<dim>(stress));
+      output.put(properties[body.layout.mass]);
+      output.put(properties[body.layout.volume]);
     }
 
-    /// The law's internal variables and derived fields of all bodies: each name has one row, whichever body's it is.
+    /// Adds the laws' internal variables and derived fields: each name has one row, whichever body's it is.
+    /// @return the rows of each body's internal variables, and then of its derived fields
     template <int dim>
-    class LawFields
+    std::vector<std::vector<unsigned int>> add_law_fields(Picture<0, dim> &output,
+                                                          const std::list<SoilBody<dim>> &bodies)
     {
-    public:
-      LawFields(const std::list<SoilBody<dim>> &bodies, PatchOutput<0, dim> &output)
-          : names(output.names)
-          , first_row(names.size())
-      {
-        for (const auto &body : bodies)
+      const unsigned int n_others = output.names.size();
+      std::vector<std::vector<unsigned int>> rows;
+      for (const auto &body : bodies)
+        {
+          rows.emplace_back();
           for (const auto &fields : { body.material->internal_quantities, body.material->output_quantities })
             for (const Quantity &field : fields)
-              if (std::find(names.begin() + first_row, names.end(), label_of(field)) == names.end())
-                output.add({ field.name, field.unit });
-      }
+              {
+                const auto row = std::find(
+                    output.names.begin() + n_others, output.names.end(), output.label(field.name, field.unit));
+                rows.back().push_back(row - output.names.begin());
+                if (row == output.names.end())
+                  output.add(field.name, field.unit);
+              }
+        }
+      return rows;
+    }
 
-      /// Prepares put() for the points of a body.
-      void begin(const SoilBody<dim> &body)
-      {
-        internal = rows_of(body.material->internal_quantities);
-        derived  = rows_of(body.material->output_quantities);
-        values.resize(derived.size());
-      }
-
-      void put(Rows<dim> &rows, const SoilBody<dim> &body, const double *properties)
-      {
-        const double *internals = properties + body.layout.internal_variables;
-        body.material->output(properties + body.layout.left_cauchy_green,
-                              internals,
-                              properties[body.layout.volume] * body.density / properties[body.layout.mass],
-                              values.data());
-        for (unsigned int i = 0; i < internal.size(); ++i)
-          rows.set(internal[i], internals[i]);
-        for (unsigned int i = 0; i < derived.size(); ++i)
-          rows.set(derived[i], values[i]);
-      }
-
-    private:
-      static std::string label_of(const Quantity &quantity)
-      {
-        return OutputField{ quantity.name, quantity.unit }.label();
-      }
-
-      std::vector<unsigned int> rows_of(const std::vector<Quantity> &fields) const
-      {
-        std::vector<unsigned int> rows;
-        for (const Quantity &field : fields)
-          rows.push_back(std::find(names.begin() + first_row, names.end(), label_of(field)) - names.begin());
-        return rows;
-      }
-
-      const std::vector<std::string> &names;
-      const unsigned int first_row;
-      std::vector<unsigned int> internal, derived; // rows
-      std::vector<double> values;
-    };
+    /// Adds what the law of a point has to say; fields of other laws are 0.
+    template <int dim>
+    void put_law_fields(Picture<0, dim> &output,
+                        const SoilBody<dim> &body,
+                        const double *properties,
+                        const std::vector<unsigned int> &rows)
+    {
+      const double *internals       = properties + body.layout.internal_variables;
+      const unsigned int n_internal = body.material->internal_quantities.size();
+      std::vector<double> values(internals, internals + n_internal);
+      values.resize(rows.size());
+      body.material->output(properties + body.layout.left_cauchy_green,
+                            internals,
+                            properties[body.layout.volume] * body.density / properties[body.layout.mass],
+                            values.data() + n_internal);
+      output.values.resize(output.points.size() * output.names.size());
+      for (unsigned int i = 0; i < rows.size(); ++i)
+        output.values[output.values.size() - output.names.size() + rows[i]] = values[i];
+    }
 
 
     /// The points of soil.
     template <int dim>
-    std::shared_ptr<Picture> picture_of_soil(const std::list<SoilBody<dim>> &bodies,
-                                             const BackgroundGrid<dim> &grid,
-                                             const NodalField<dim> &field,
-                                             const WaterView<dim> *view)
+    PointPicture<dim> picture_of_soil(const std::list<SoilBody<dim>> &bodies,
+                                      const BackgroundGrid<dim> &grid,
+                                      const NodalField<dim> &field,
+                                      const WaterView<dim> *view)
     {
-      const auto picture          = std::make_shared<PatchOutput<0, dim>>();
-      PatchOutput<0, dim> &output = *picture;
-      output.add({ "velocity", "m/s", FieldKind::vector });
-      output.add({ "stress", "Pa", FieldKind::tensor });
-      output.add({ "mean_effective_stress", "Pa" });
-      output.add({ "deviatoric_stress", "Pa" });
-      output.add({ "stress_ratio", "-" });
-      output.add({ "mass", "kg" });
-      output.add({ "volume", "m^3" });
-      output.add({ "body", "-" });
+      const auto picture      = std::make_shared<Picture<0, dim>>();
+      Picture<0, dim> &output = *picture;
+      output.add("velocity", "m/s", output.vector);
+      output.add("stress", "Pa", output.tensor);
+      output.add("mean_effective_stress", "Pa");
+      output.add("deviatoric_stress", "Pa");
+      output.add("stress_ratio", "-");
+      output.add("mass", "kg");
+      output.add("volume", "m^3");
+      output.add("body", "-");
       if (view)
         {
-          output.add({ "porosity", "-" });
-          output.add({ "pore_pressure", "Pa" });
-          output.add({ "seepage_velocity", "m/s", FieldKind::vector });
+          output.add("porosity", "-");
+          output.add("pore_pressure", "Pa");
+          output.add("seepage_velocity", "m/s", output.vector);
         }
-      output.add({ "id", "-" });
+      output.add("id", "-");
       const bool has_displacement = !bodies.empty() && bodies.front().layout.has_start;
       if (has_displacement)
-        output.add({ "displacement", "m", FieldKind::vector });
-      LawFields<dim> law_fields(bodies, output);
+        output.add("displacement", "m", output.vector);
+      const auto rows_of_laws = add_law_fields(output, bodies);
 
       unsigned int number = 0;
       for (const auto &body : bodies)
         {
-          law_fields.begin(body);
           for (unsigned int c = 0; c < body.points.cells().size(); ++c)
             {
               const auto &cell = body.points.cells()[c];
@@ -199,20 +273,21 @@ namespace scree
                 pressure = view->pressure_of_cell(cell.cell);
               for_each_point(cell, [&](const auto &point) {
                 const double *properties = point.properties;
-                Rows<dim> rows(output, point.location);
-                put_state(rows, body, properties, number);
+                output.points.push_back(point.location);
+                put_state(output, body, properties);
+                output.put(number);
                 if (view)
                   {
                     const Point<dim> &x = point.reference_location;
                     const double n      = body.porosity(properties);
-                    rows.put(n);
-                    rows.put(pressure_at<dim>(x, pressure));
-                    rows.put(n * relative_velocity_at(x, grid, cell.cell, field, view->field));
+                    output.put(n);
+                    output.put(pressure_at<dim>(x, pressure));
+                    output.put(n * relative_velocity_at(x, grid, cell.cell, field, view->field));
                   }
-                rows.put(static_cast<double>(*id++));
+                output.put(static_cast<double>(*id++));
                 if (has_displacement)
-                  rows.put(point.location - Point<dim>(vector_of<dim>(properties + body.layout.start)));
-                law_fields.put(rows, body, properties);
+                  output.put(point.location - Point<dim>(vector_of<dim>(properties + body.layout.start)));
+                put_law_fields(output, body, properties, rows_of_laws[number]);
               });
             }
           ++number;
@@ -223,62 +298,60 @@ namespace scree
 
     /// The points of water, or of soil as carriers of water.
     template <int dim>
-    std::shared_ptr<Picture> picture_of_water(const BackgroundGrid<dim> &grid,
-                                              const NodalField<dim> &soil_field,
-                                              const WaterView<dim> &view,
-                                              const std::vector<CellContents> &contents)
+    PointPicture<dim> picture_of_water(const BackgroundGrid<dim> &grid,
+                                       const NodalField<dim> &soil_field,
+                                       const WaterView<dim> &view,
+                                       const std::vector<CellContents> &contents)
     {
-      const auto picture          = std::make_shared<PatchOutput<0, dim>>();
-      PatchOutput<0, dim> &output = *picture;
-      output.add({ "velocity", "m/s", FieldKind::vector });
-      output.add({ "pressure", "Pa" });
-      output.add({ "mass", "kg" });
-      output.add({ "volume", "m^3" });
-      output.add({ "porosity", "-" });
-      output.add({ "inside_soil", "-" });
-      output.add({ "seepage_velocity", "m/s", FieldKind::vector });
+      const auto picture      = std::make_shared<Picture<0, dim>>();
+      Picture<0, dim> &output = *picture;
+      output.add("velocity", "m/s", output.vector);
+      output.add("pressure", "Pa");
+      output.add("mass", "kg");
+      output.add("volume", "m^3");
+      output.add("porosity", "-");
+      output.add("inside_soil", "-");
+      output.add("seepage_velocity", "m/s", output.vector);
 
       for (const auto &water : view.water)
-        for (const auto &cell : water.points().cells())
-          {
-            const bool inside_soil = contents[cell.cell].n_soil_points > 0;
-            const double n         = contents[cell.cell].porosity();
-            for_each_point(cell, [&](const auto &point) {
-              const double *properties = point.properties;
-              Rows<dim> rows(output, point.location);
-              rows.put(vector_of<dim>(properties + water.layout.velocity));
-              rows.put(properties[water.layout.pressure]);
-              rows.put(properties[water.layout.mass]);
-              rows.put(properties[water.layout.volume]);
-              rows.put(n);
-              rows.put(inside_soil);
-              rows.put(inside_soil
-                           ? n * relative_velocity_at(point.reference_location, grid, cell.cell, soil_field, view.field)
-                           : Tensor<1, dim>());
-            });
-          }
+        for_each_point(water.points(), [&](const auto &point) {
+          const double *properties = point.properties;
+          const CellContents &cell = contents[point.cell];
+          const bool inside_soil   = cell.n_soil_points > 0;
+          output.points.push_back(point.location);
+          output.put(vector_of<dim>(properties + water.layout.velocity));
+          output.put(properties[water.layout.pressure]);
+          output.put(properties[water.layout.mass]);
+          output.put(properties[water.layout.volume]);
+          output.put(cell.porosity());
+          output.put(inside_soil);
+          output.put(inside_soil
+                         ? cell.porosity() *
+                               relative_velocity_at(point.reference_location, grid, point.cell, soil_field, view.field)
+                         : Tensor<1, dim>());
+        });
       return picture;
     }
 
 
     /// The cells that hold points.
     template <int dim>
-    std::shared_ptr<Picture> picture_of_grid(const BackgroundGrid<dim> &grid,
-                                             const NodalField<dim> &field,
-                                             const WaterView<dim> *view,
-                                             const std::vector<CellContents> &contents)
+    std::shared_ptr<Picture<dim, dim>> picture_of_grid(const BackgroundGrid<dim> &grid,
+                                                       const NodalField<dim> &field,
+                                                       const WaterView<dim> *view,
+                                                       const std::vector<CellContents> &contents)
     {
-      const auto picture            = std::make_shared<PatchOutput<dim, dim>>();
-      PatchOutput<dim, dim> &output = *picture;
-      output.add({ "velocity", "m/s", FieldKind::vector });
-      output.add({ "density", "kg/m^3" });
-      output.add({ "mean_effective_stress", "Pa" });
+      const auto picture        = std::make_shared<Picture<dim, dim>>();
+      Picture<dim, dim> &output = *picture;
+      output.add("velocity", "m/s", output.vector);
+      output.add("density", "kg/m^3");
+      output.add("mean_effective_stress", "Pa");
       if (view)
         {
-          output.add({ "water_velocity", "m/s", FieldKind::vector });
-          output.add({ "pressure", "Pa" });
-          output.add({ "porosity", "-" });
-          output.add({ "saturation", "-" });
+          output.add("water_velocity", "m/s", output.vector);
+          output.add("pressure", "Pa");
+          output.add("porosity", "-");
+          output.add("saturation", "-");
         }
 
       const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
@@ -286,10 +359,10 @@ namespace scree
         {
           const unsigned int index = cell->active_cell_index();
           const CellContents &sums = contents[index];
-          if (sums.is_empty() || !holds_nodes(cell))
+          if (sums.n_soil_points + sums.n_water_points == 0 || !holds_nodes(cell))
             continue;
-          typename PatchOutput<dim, dim>::Patch patch;
-          patch.patch_index    = output.patches.size();
+          auto &patch          = output.patches.emplace_back();
+          patch.patch_index    = output.patches.size() - 1;
           patch.n_subdivisions = 1;
           patch.reference_cell = ReferenceCells::get_hypercube<dim>();
           patch.data.reinit(output.names.size(), GeometryInfo<dim>::vertices_per_cell);
@@ -313,7 +386,6 @@ namespace scree
               put(sums.porosity());
               put(sums.saturation(cell_volume));
             }
-          output.patches.push_back(patch);
         }
       return picture;
     }
@@ -329,42 +401,44 @@ namespace scree
     FileJob job;
     if (pictures == Pictures::none)
       return job;
-    Files files;
-    const bool with_grid = pictures == Pictures::points_and_grid;
+    using Contents = std::vector<std::function<FileContent()>>; // made when they are written
+    Contents pieces, records, lists;                            // the last two on the first rank
+    const auto add = [&](const std::string &name, const auto &picture) {
+      TimesAndFiles &list    = series[name];
+      const std::string file = name + '_' + Utilities::int_to_string(list.size(), 5);
+      const auto piece_of    = [file](const unsigned int r) { return file + '.' + std::to_string(r) + ".vtu"; };
+      list.emplace_back(time, file + ".pvtu");
+      pieces.push_back([=, path = folder + piece_of(rank)] { return FileContent(path, picture->piece()); });
+      if (rank > 0)
+        return;
+      records.push_back([=, path = folder + file + ".pvtu", n_ranks = n_ranks] {
+        std::vector<std::string> names;
+        for (unsigned int r = 0; r < n_ranks; ++r)
+          names.push_back(piece_of(r));
+        return FileContent(path, picture->record(names));
+      });
+      lists.push_back([content = series_file(name, list)] { return content; });
+    };
 
+    const bool with_grid = pictures == Pictures::points_and_grid;
     std::vector<CellContents> contents; // by active cell index
     const std::list<WaterPhase<dim>> no_water;
     if (with_grid || view)
       contents = contents_of_cells(bodies, view ? view->water : no_water, grid);
     if (!bodies.empty())
-      add("points", point_files, time, picture_of_soil(bodies, grid, field, view), files);
+      add("points", picture_of_soil(bodies, grid, field, view));
     if (view)
-      add("water", water_files, time, picture_of_water(grid, field, *view, contents), files);
+      add("water", picture_of_water(grid, field, *view, contents));
     if (with_grid)
-      add("grid", grid_files, time, picture_of_grid(grid, field, view, contents), files);
-    const auto piece_of = [](const std::string &path, const unsigned int rank) {
-      return path + '.' + std::to_string(rank) + ".vtu";
-    };
-    job.stages.resize(2);
-    job.stages[0] = [=, rank = rank] {
-      std::vector<FileContent> pieces;
-      for (const auto &[path, picture] : files.pictures)
-        pieces.emplace_back(piece_of(path, rank), picture->piece());
-      write_whole_files(pieces);
-    };
-    if (rank == 0)
-      job.stages[1] = [=, n_ranks = n_ranks] {
-        std::vector<FileContent> records;
-        for (const auto &[path, picture] : files.pictures)
-          {
-            std::vector<std::string> pieces;
-            for (unsigned int rank = 0; rank < n_ranks; ++rank)
-              pieces.push_back(piece_of(path.substr(path.rfind('/') + 1), rank));
-            records.emplace_back(path + ".pvtu", picture->record(pieces));
-          }
-        records.insert(records.end(), files.series.begin(), files.series.end());
-        write_whole_files(records);
-      };
+      add("grid", picture_of_grid(grid, field, view, contents));
+    records.insert(records.end(), lists.begin(), lists.end());
+    for (const Contents &files : { pieces, records })
+      job.stages.push_back([files] {
+        std::vector<FileContent> all;
+        for (const auto &content : files)
+          all.push_back(content());
+        write_whole_files(all);
+      });
     return job;
   }
 

@@ -100,7 +100,7 @@ namespace scree
   {
     const double least = 1e-6 * grid.cell_size(); // less soil comes from rounding
     Raster raster;
-    raster.n_columns = columns.n_cells()[0];
+    raster.n_columns = columns.box.n[0];
     raster.n_rows    = columns.size() / raster.n_columns;
     raster.spacing   = grid.cell_size();
     raster.x         = frame.origin[0] + grid.lower_corner()[0] + 0.5 * raster.spacing;

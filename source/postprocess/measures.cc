@@ -168,12 +168,12 @@ namespace scree
     for (unsigned int a = dim - 1; a-- > 0;)
       {
         // In cells from the middle of the first column.
-        const double place = (x[a] - grid.lower_corner()[a]) / grid.cell_size() - 0.5, lower = std::floor(place);
+        const double place = (x[a] - box.lower[a]) / box.width - 0.5, lower = std::floor(place);
         for (unsigned int i = 0; i < result.size(); ++i)
           {
             const unsigned int side = i >> a & 1;
             result[i].first =
-                result[i].first * n[a] + static_cast<std::size_t>(std::clamp(lower + side, 0., n[a] - 1.));
+                result[i].first * box.n[a] + static_cast<std::size_t>(std::clamp(lower + side, 0., box.n[a] - 1.));
             result[i].second *= side == 1 ? place - lower : 1. - (place - lower);
           }
       }
@@ -209,20 +209,6 @@ namespace scree
   }
 
 
-  namespace
-  {
-    /// Integral over the box of 1 - |x - place|/width along an axis, m.
-    double weight_in_box(const double place, const double lower, const double upper, const double width)
-    {
-      const auto side = [&](const double room) {
-        const double s = std::min(1., room / width);
-        return width * s * (1. - 0.5 * s);
-      };
-      return side(place - lower) + side(upper - place);
-    }
-  } // namespace
-
-
   template <int dim>
   std::vector<GroundColumn> ground_columns(const std::vector<PointVolume<dim>> &lumps,
                                            const std::vector<std::vector<double>> &places,
@@ -231,6 +217,10 @@ namespace scree
     constexpr unsigned int n_parts = 1 << (dim - 1);
     constexpr double nowhere       = std::numeric_limits<double>::lowest();
     const double width             = grid.cell_size();
+    const auto half_of_weights     = [&](const double room) { // integral of 1 - |x|/width over x from 0 to `room`, m
+      const double s = std::min(1., room / width);
+      return width * s * (1. - 0.5 * s);
+    };
     std::vector<double> volumes(places.size(), 0.), tops(places.size() * n_parts, nowhere);
     for (unsigned int i = 0; i < places.size(); ++i)
       for (const PointVolume<dim> &lump : lumps)
@@ -258,7 +248,8 @@ namespace scree
       {
         double area = 1., sum = 0., n = 0.;
         for (unsigned int a = 0; a + 1 < dim; ++a)
-          area *= weight_in_box(places[i][a], grid.lower_corner()[a], grid.upper_corner()[a], width);
+          area *= half_of_weights(places[i][a] - grid.lower_corner()[a]) +
+                  half_of_weights(grid.upper_corner()[a] - places[i][a]);
         for (unsigned int part = 0; part < n_parts; ++part)
           if (const double top = tops[i * n_parts + part]; top > nowhere)
             {
@@ -275,20 +266,15 @@ namespace scree
   std::pair<double, double>
   rear_and_front(const std::vector<PointVolume<dim>> &lumps, const double threshold, const BackgroundGrid<dim> &grid)
   {
-    const double width = grid.cell_size();
     const CellColumns<dim> columns(grid);
-    std::array<int, dim> n;
-    std::copy_n(columns.n_cells().begin(), dim, n.begin());
-    const int n_rows = columns.size() / n[0];
+    const CellPlace<dim> &n = columns.box.n;
+    const int n_rows        = columns.size() / n[0];
 
     std::vector<double> thickness(n[0] * n_rows, 0.); // row by row along x
     for (const PointVolume<dim> &lump : lumps)
       {
-        const auto number = [&](const unsigned int axis) {
-          const double cell = std::floor((lump.location[axis] - grid.lower_corner()[axis]) / width);
-          return std::clamp(static_cast<int>(cell), 0, n[axis] - 1);
-        };
-        thickness[(dim == 3 ? number(1) * n[0] : 0) + number(0)] += lump.volume / columns.area();
+        const CellPlace<dim> place = columns.box.place_near(lump.location);
+        thickness[(dim == 3 ? place[1] * n[0] : 0) + place[0]] += lump.volume / columns.area();
       }
     Utilities::MPI::sum(thickness, grid.communicator(), thickness);
 
@@ -312,7 +298,7 @@ namespace scree
       }
     if (last < first)
       return { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN() };
-    return { grid.lower_corner()[0] + first * width, grid.lower_corner()[0] + last * width };
+    return { grid.lower_corner()[0] + first * grid.cell_size(), grid.lower_corner()[0] + last * grid.cell_size() };
   }
 
   template class CellColumns<2>;
@@ -335,74 +321,36 @@ namespace scree
                                   const std::vector<double> &fractions,
                                   const MPI_Comm communicator)
   {
-    struct Search
-    {
-      double begin, end, wanted;     // mass between begin and the percentile
-      std::vector<PartOfMass> parts; // between begin and end
-    };
     double all = 0.;
     for (const PartOfMass &part : parts)
       all += part.mass;
-    all = Utilities::MPI::sum(all, communicator);
-    // Equal masses often add up to just the given part: rounding must not choose the point.
-    std::vector<Search> searches;
-    for (const double fraction : fractions)
-      searches.push_back({ lower, upper, fraction * all * (1. - 1e-12), parts });
-
+    all                               = Utilities::MPI::sum(all, communicator);
     constexpr unsigned int n_halvings = 50;
-    for (unsigned int i = 0; i < n_halvings; ++i)
-      {
-        std::vector<double> masses; // below the middles
-        std::vector<std::vector<PartOfMass>::iterator> middles;
-        for (Search &search : searches)
-          {
-            middles.push_back(
-                std::partition(search.parts.begin(), search.parts.end(), [&search](const PartOfMass &part) {
-                  return part.place < 0.5 * (search.begin + search.end);
-                }));
-            masses.push_back(0.);
-            for (auto part = search.parts.begin(); part != middles.back(); ++part)
-              masses.back() += part->mass;
-          }
-        Utilities::MPI::sum(masses, communicator, masses);
-        for (unsigned int s = 0; s < searches.size(); ++s)
-          {
-            auto &[begin, end, wanted, own] = searches[s];
-            const bool is_above             = masses[s] < wanted;
-            (is_above ? begin : end)        = 0.5 * (begin + end);
-            wanted -= is_above ? masses[s] : 0.;
-            own.erase(is_above ? own.begin() : middles[s], is_above ? middles[s] : own.end());
-          }
-      }
     std::vector<double> result;
-    for (const Search &search : searches)
-      result.push_back(0.5 * (search.begin + search.end));
+    for (const double fraction : fractions)
+      {
+        double begin = lower, end = upper;
+        std::vector<PartOfMass> between = parts; // begin and end
+        // Of the mass from begin to the percentile. Equal masses often add up to just the given part: rounding must not
+        // choose the point.
+        double wanted = fraction * all * (1. - 1e-12);
+        for (unsigned int i = 0; i < n_halvings; ++i)
+          {
+            const double middle = 0.5 * (begin + end);
+            const auto above    = std::partition(
+                between.begin(), between.end(), [middle](const PartOfMass &part) { return part.place < middle; });
+            double mass = 0.; // below the middle
+            for (auto part = between.begin(); part != above; ++part)
+              mass += part->mass;
+            mass                     = Utilities::MPI::sum(mass, communicator);
+            const bool is_above      = mass < wanted;
+            (is_above ? begin : end) = middle;
+            wanted -= is_above ? mass : 0.;
+            between.erase(is_above ? between.begin() : above, is_above ? above : between.end());
+          }
+        result.push_back(0.5 * (begin + end));
+      }
     return result;
-  }
-
-
-  template <int dim>
-  double least_distance(const std::list<SoilBody<dim>> &bodies,
-                        const std::list<WaterPhase<dim>> &water,
-                        const DiscreteLevelSet<dim> &surface,
-                        const MPI_Comm communicator)
-  {
-    double least       = surface.reach();
-    const auto include = [&](const PointSet<dim> &points) {
-      for (const auto &cell : points.cells())
-        if (surface.least_distance(cell.cell) < least)
-          for_each_point(cell, [&](const auto &point) {
-            least = std::min(
-                least, surface.distance_of(point.cell, point.reference_location, point.location, std::min(0., least)));
-          });
-    };
-    for (const auto &body : bodies)
-      if (!body.is_rigid)
-        include(body.points);
-    for (const auto &part : water)
-      if (part.carrier() == nullptr)
-        include(part.points());
-    return Utilities::MPI::min(least, communicator);
   }
 
 
@@ -444,8 +392,6 @@ namespace scree
     return measures;
   }
 
-  template decltype(least_distance<2>) least_distance<2>;
-  template decltype(least_distance<3>) least_distance<3>;
   template decltype(measure_water<2>) measure_water<2>;
   template decltype(measure_water<3>) measure_water<3>;
 
@@ -496,6 +442,22 @@ namespace scree
       for (unsigned int a = 0; a < dim; ++a)
         coefficients[a + 1] = slope[a];
       return coefficients;
+    }
+
+
+    /// The places of a cell and its neighbours, in the order in which they are added up: axis by axis from the cell.
+    template <int dim>
+    std::array<CellPlace<dim>, Utilities::pow(3, dim)> places_around(const CellPlace<dim> &cell)
+    {
+      std::array<CellPlace<dim>, Utilities::pow(3, dim)> places{ { cell } };
+      for (unsigned int a = 0, n = 1; a < dim; ++a, n *= 3)
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            places[n + 2 * i] = places[n + 2 * i + 1] = places[i];
+            --places[n + 2 * i][a];
+            ++places[n + 2 * i + 1][a];
+          }
+      return places;
     }
 
 
@@ -551,8 +513,7 @@ namespace scree
       }
 
     private:
-      static constexpr unsigned int none        = numbers::invalid_unsigned_int;
-      static constexpr unsigned int n_neighbors = Utilities::pow(3, dim); // with the cell itself
+      static constexpr unsigned int none = numbers::invalid_unsigned_int;
 
       struct Sample
       {
@@ -586,41 +547,21 @@ namespace scree
             [&](const Cell &cell, const Moments<dim> &value) { moments[entry_of(cell->active_cell_index())] = value; });
       }
 
-      /// The order in which neighbours, numbered along x first, are added up: axis by axis from the cell itself.
-      static std::array<unsigned int, n_neighbors> order_of_sums()
-      {
-        std::array<unsigned int, n_neighbors> order{ { n_neighbors / 2 } };
-        for (unsigned int n = 1, stride = 1; n < n_neighbors; n *= 3, stride *= 3)
-          for (unsigned int i = 0; i < n; ++i)
-            {
-              order[n + 2 * i]     = order[i] - stride;
-              order[n + 2 * i + 1] = order[i] + stride;
-            }
-        return order;
-      }
-
       /// The fits to the points of the first cells and of their neighbours.
       std::vector<Tensor<1, dim + 1>> fits_around(const unsigned int n_owned) const
       {
         const FineCells<dim> &fine = grid.fine_cells();
-        const auto order           = order_of_sums();
         std::vector<Tensor<1, dim + 1>> fits;
         for (unsigned int entry = 0; entry < n_owned; ++entry)
           {
-            const CellPlace<dim> &middle = fine.cells()[fine.of_index(cells[entry])].place;
             Moments<dim> sum;
-            for (const unsigned int neighbor : order)
-              {
-                CellPlace<dim> place = middle;
-                for (unsigned int a = 0, rest = neighbor; a < dim; ++a, rest /= 3)
-                  place[a] += int(rest % 3) - 1;
-                if (const unsigned int cell = fine.find(place); cell != FineCells<dim>::none)
-                  if (const unsigned int near = entry_of_cell[fine.cells()[cell].index]; near != none)
-                    {
-                      sum.matrix += moments[near].matrix;
-                      sum.rhs += moments[near].rhs;
-                    }
-              }
+            for (const CellPlace<dim> &place : places_around<dim>(fine.cells()[fine.of_index(cells[entry])].place))
+              if (const unsigned int cell = fine.find(place); cell != FineCells<dim>::none)
+                if (const unsigned int near = entry_of_cell[fine.cells()[cell].index]; near != none)
+                  {
+                    sum.matrix += moments[near].matrix;
+                    sum.rhs += moments[near].rhs;
+                  }
             fits.push_back(fit(sum));
           }
         return fits;

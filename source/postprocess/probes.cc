@@ -6,39 +6,14 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
-#include <cctype>
+#include <regex>
 
 namespace scree
 {
   using namespace dealii;
 
-  /// For each place, in cell sizes from there: the number of points that are close; the moments of the weights, 1, x
-  /// and x x^T; and of each quantity its sum and its moment.
   template <int dim>
-  struct PlaceValues<dim>::Sums
-  {
-    static constexpr unsigned int n_monomials = dim + 1;
-    static constexpr unsigned int first_value = 1 + n_monomials * n_monomials;
-
-    const unsigned int n_values, stride;
-    std::vector<double> all;
-
-    Sums(const unsigned int n_places, const unsigned int n_values)
-        : n_values(n_values)
-        , stride(first_value + n_monomials * n_values)
-        , all(n_places * stride, 0.)
-    {
-    }
-
-    double *of(const unsigned int place)
-    {
-      return all.data() + place * stride;
-    }
-  };
-
-
-  template <int dim>
-  void PlaceValues<dim>::add(Sums &sums,
+  void PlaceValues<dim>::add(double *sums,
                              const unsigned int place,
                              const Point<dim> &x,
                              const double mass,
@@ -58,31 +33,48 @@ namespace scree
     std::array<double, dim + 1> monomials{ { 1. } };
     for (unsigned int a = 0; a < dim; ++a)
       monomials[a + 1] = distance[a];
-    double *sum = sums.of(place);
-    *sum++ += is_close;
+    *sums++ += is_close;
     for (const double m : monomials)
       for (const double n : monomials)
-        *sum++ += weight * m * n;
+        *sums++ += weight * m * n;
     for (const double value : values)
       for (const double m : monomials)
-        *sum++ += weight * m * value;
+        *sums++ += weight * m * value;
   }
 
 
   template <int dim>
-  std::vector<std::vector<double>> PlaceValues<dim>::fit(Sums &sums) const
+  template <typename ForEachSet>
+  std::vector<std::vector<double>> PlaceValues<dim>::values_at_places(const unsigned int n_values,
+                                                                      const ForEachSet &for_each_set) const
   {
+    // For each place, in cell sizes from there: the number of points that are close; the moments of the weights, 1, x
+    // and x x^T; and of each quantity its sum and its moment.
+    constexpr unsigned int n = dim + 1, first_value = 1 + n * n;
+    const unsigned int stride = first_value + n * n_values;
+    std::vector<double> sums(places.size() * stride, 0.), values(n_values);
+    const FineCells<dim> &fine = grid.fine_cells();
+    for_each_set([&](const PointSet<dim> &points, const auto &read) {
+      for (const auto &cell : points.cells())
+        if (const auto near = places_near_cell.find(fine.cells()[fine.of_index(cell.cell)].place);
+            near != places_near_cell.end())
+          for (const unsigned int place : near->second)
+            for_each_point(cell, [&](const auto &point) {
+              const double mass = read(point.properties, values);
+              add(sums.data() + place * stride, place, point.location, mass, values);
+            });
+    });
+    Utilities::MPI::sum(sums, grid.communicator(), sums);
+
     // Of the weights along an axis, in cell sizes squared: below it, points lie too close together for a slope.
     constexpr double smallest_spread = 0.02;
-    constexpr unsigned int n         = dim + 1;
-    Utilities::MPI::sum(sums.all, grid.communicator(), sums.all);
-    std::vector<std::vector<double>> table(
-        places.size(), std::vector<double>(sums.n_values, std::numeric_limits<double>::quiet_NaN()));
+    std::vector<std::vector<double>> table(places.size(),
+                                           std::vector<double>(n_values, std::numeric_limits<double>::quiet_NaN()));
     for (unsigned int i = 0; i < places.size(); ++i)
       {
-        if (sums.of(i)[0] == 0.)
+        const double *of_place = sums.data() + i * stride, *matrix = of_place + 1, weight = matrix[0];
+        if (of_place[0] == 0.)
           continue;
-        const double *matrix = sums.of(i) + 1, weight = matrix[0];
         Tensor<1, dim> mean;
         for (unsigned int a = 0; a < dim; ++a)
           mean[a] = matrix[a + 1] / weight;
@@ -95,9 +87,9 @@ namespace scree
         for (const auto &[value, axis] : eigenvectors(spread))
           if (value > smallest_spread)
             to_place -= (mean * axis) / value * axis;
-        for (unsigned int v = 0; v < sums.n_values; ++v)
+        for (unsigned int v = 0; v < n_values; ++v)
           {
-            const double *moments = sums.of(i) + Sums::first_value + v * n;
+            const double *moments = of_place + first_value + v * n;
             table[i][v]           = moments[0] / weight;
             for (unsigned int a = 0; a < dim; ++a)
               table[i][v] += to_place[a] * (moments[a + 1] / weight - mean[a] * moments[0] / weight);
@@ -110,108 +102,35 @@ namespace scree
   template <int dim>
   std::vector<std::vector<double>> PlaceValues<dim>::of_soil(const std::list<SoilBody<dim>> &bodies) const
   {
-    std::vector<double> values(names_of_soil().size());
-    Sums sums(places.size(), values.size());
-    for (const auto &body : bodies)
-      for (const auto &cell : body.points.cells())
-        for (const unsigned int place : near(cell))
-          for_each_point(cell, [&](const auto &point) {
-            const double *properties = point.properties, *stress = properties + body.layout.stress;
-            auto next = std::copy_n(properties + body.layout.velocity, dim, values.begin());
-            next      = std::copy_n(stress, n_symmetric_components<dim>, next);
-            *next++   = mean_effective_stress(stress);
-            *next++   = body.porosity(properties);
-            add(sums, place, point.location, properties[body.layout.mass], values);
-          });
-    return fit(sums);
+    return values_at_places(names_of_soil().size(), [&](const auto &act) {
+      for (const auto &body : bodies)
+        act(body.points, [&](const double *properties, std::vector<double> &values) {
+          const double *stress = properties + body.layout.stress;
+          auto next            = std::copy_n(properties + body.layout.velocity, dim, values.begin());
+          next                 = std::copy_n(stress, n_symmetric_components<dim>, next);
+          *next++              = mean_effective_stress(stress);
+          *next++              = body.porosity(properties);
+          return properties[body.layout.mass];
+        });
+    });
   }
 
 
   template <int dim>
   std::vector<std::vector<double>> PlaceValues<dim>::of_water(const std::list<WaterPhase<dim>> &water) const
   {
-    std::vector<double> values(names_of_water().size());
-    Sums sums(places.size(), values.size());
-    for (const auto &one : water)
-      for (const auto &cell : one.points().cells())
-        for (const unsigned int place : near(cell))
-          for_each_point(cell, [&](const auto &point) {
-            const double *properties = point.properties;
-            values[0]                = properties[one.layout.pressure];
-            std::copy_n(properties + one.layout.velocity, dim, values.begin() + 1);
-            add(sums, place, point.location, properties[one.layout.mass], values);
-          });
-    return fit(sums);
+    return values_at_places(names_of_water().size(), [&](const auto &act) {
+      for (const auto &part : water)
+        act(part.points(), [&](const double *properties, std::vector<double> &values) {
+          values[0] = properties[part.layout.pressure];
+          std::copy_n(properties + part.layout.velocity, dim, values.begin() + 1);
+          return properties[part.layout.mass];
+        });
+    });
   }
 
   template class PlaceValues<2>;
   template class PlaceValues<3>;
-
-
-  template <int dim>
-  std::vector<double> WallForces<dim>::pressure_forces(const WaterView<dim> &view) const
-  {
-    constexpr unsigned int n = 8; // places along each axis of a cell's face: p has a kink where it is cut off at 0
-    const double area        = Utilities::fixed_power<dim - 1>(grid.cell_size() / n);
-    std::vector<double> forces(2 * dim, 0.);
-    std::set<unsigned int> wet_cells;
-    for (const auto &water : view.water)
-      for (const auto &cell : water.points().cells())
-        wet_cells.insert(cell.cell);
-    for (const unsigned int cell : wet_cells)
-      if (const std::uint8_t walls = grid.open_knots(cell); walls != 0 && grid.numbering().has_nodes(cell))
-        {
-          const auto corners = view.pressure_of_cell(cell);
-          for (const unsigned int face : GeometryInfo<dim>::face_indices())
-            if ((walls >> face) & 1)
-              for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n); ++i)
-                {
-                  Point<dim> x;
-                  for (unsigned int a = 0, rest = i; a < dim; ++a)
-                    if (a == face / 2)
-                      x[a] = face % 2;
-                    else
-                      {
-                        x[a] = (rest % n + 0.5) / n;
-                        rest /= n;
-                      }
-                  forces[face] += (face % 2 == 0 ? -1. : 1.) * area * std::max(0., pressure_at<dim>(x, corners));
-                }
-        }
-    Utilities::MPI::sum(forces, grid.communicator(), forces);
-    return forces;
-  }
-
-
-  template <int dim>
-  std::vector<double> WallForces<dim>::collect(const Budget<dim> &totals, const double time, const WaterView<dim> *view)
-  {
-    std::vector<double> impulses; // face by face: soil, water
-    for (const unsigned int face : faces)
-      for (const WallImpulses<dim> *walls : { &totals.soil_walls, &totals.water_walls })
-        for (unsigned int a = 0; a < dim; ++a)
-          impulses.push_back(walls->of_face[face][a]);
-    Utilities::MPI::sum(impulses, grid.communicator(), impulses);
-    const std::vector<double> pressure = view ? pressure_forces(*view) : std::vector<double>(2 * dim, 0.);
-
-    std::vector<double> forces;
-    for (unsigned int i = 0; i < faces.size(); ++i)
-      {
-        for (unsigned int c = 2 * dim * i; c < 2 * dim * i + (is_wet ? 2 : 1) * dim; ++c)
-          forces.push_back(has_start && time > last_time
-                               ? (last_impulses[c] - impulses[c]) / (time - last_time) // on the wall
-                               : std::numeric_limits<double>::quiet_NaN());
-        if (is_wet)
-          forces.push_back(pressure[faces[i]]);
-      }
-    has_start     = true;
-    last_time     = time;
-    last_impulses = impulses;
-    return forces;
-  }
-
-  template class WallForces<2>;
-  template class WallForces<3>;
 
 
   namespace
@@ -226,13 +145,6 @@ namespace scree
         if (numbers.push_back(number_of(word)); !std::isfinite(numbers.back()))
           return {};
       return numbers.size() == n ? numbers : std::vector<double>();
-    }
-
-    bool is_file_name(const std::string &name)
-    {
-      return !name.empty() && std::all_of(name.begin(), name.end(), [](const unsigned char letter) {
-        return std::isalnum(letter) || letter == '_' || letter == '-';
-      });
     }
 
     /// An entry that lists places, and how it is written.
@@ -268,7 +180,7 @@ namespace scree
           for (const std::string &point : Utilities::split_string_list(part.substr(colon + 1), " to "))
             place.points.push_back(coordinates(point, dim - kind.n_axes_less));
         const bool reads =
-            is_file_name(place.name) && place.points.size() == kind.n_points &&
+            std::regex_match(place.name, std::regex("[A-Za-z0-9_-]+")) && place.points.size() == kind.n_points &&
             std::none_of(place.points.begin(), place.points.end(), [](const auto &point) { return point.empty(); });
         require_entry(reads,
                       { subsection, entry, text },
@@ -350,17 +262,69 @@ namespace scree
 
   namespace
   {
-    /// Places at equal distances from one end of a line to the other.
+    /// Force of the pore pressure on each face of the box, N, of all ranks.
     template <int dim>
-    std::vector<Point<dim>> places_on_line(const NamedPlace &line, const unsigned int n)
+    std::vector<double> pressure_forces(const WaterView<dim> &view, const BackgroundGrid<dim> &grid)
     {
-      const Point<dim> begin(vector_of<dim>(line.points[0].data())), end(vector_of<dim>(line.points[1].data()));
-      std::vector<Point<dim>> places;
-      for (unsigned int i = 0; i < n; ++i)
-        places.push_back(begin + i / (n - 1.) * (end - begin));
-      return places;
+      constexpr unsigned int n = 8; // places along each axis of a cell's face: p has a kink where it is cut off at 0
+      const double area        = Utilities::fixed_power<dim - 1>(grid.cell_size() / n);
+      std::vector<double> forces(2 * dim, 0.);
+      std::set<unsigned int> wet_cells;
+      for (const auto &water : view.water)
+        for (const auto &cell : water.points().cells())
+          wet_cells.insert(cell.cell);
+      for (const unsigned int cell : wet_cells)
+        if (const std::uint8_t walls = grid.open_knots(cell); walls != 0 && grid.numbering().has_nodes(cell))
+          {
+            const auto corners = view.pressure_of_cell(cell);
+            for (const unsigned int face : GeometryInfo<dim>::face_indices())
+              if ((walls >> face) & 1)
+                for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n); ++i)
+                  {
+                    Point<dim> x;
+                    for (unsigned int a = 0, rest = i; a < dim; ++a)
+                      if (a == face / 2)
+                        x[a] = face % 2;
+                      else
+                        {
+                          x[a] = (rest % n + 0.5) / n;
+                          rest /= n;
+                        }
+                    forces[face] += (face % 2 == 0 ? -1. : 1.) * area * std::max(0., pressure_at<dim>(x, corners));
+                  }
+          }
+      Utilities::MPI::sum(forces, grid.communicator(), forces);
+      return forces;
     }
   } // namespace
+
+
+  template <int dim>
+  std::vector<double> Probes<dim>::wall_forces(const State &state, const BackgroundGrid<dim> &grid)
+  {
+    Impulses now{ true, state.time };
+    for (const unsigned int face : walls)
+      for (const WallImpulses<dim> *of_phase : { &state.totals.soil_walls, &state.totals.water_walls })
+        for (unsigned int a = 0; a < dim; ++a)
+          now.of_walls.push_back(of_phase->of_face[face][a]);
+    Utilities::MPI::sum(now.of_walls, grid.communicator(), now.of_walls);
+    const std::vector<double> pressure =
+        state.view ? pressure_forces(*state.view, grid) : std::vector<double>(2 * dim, 0.);
+
+    const Impulses &before = at_last_forces;
+    std::vector<double> forces;
+    for (unsigned int i = 0; i < walls.size(); ++i)
+      {
+        for (unsigned int c = 2 * dim * i; c < 2 * dim * i + (has_water ? 2 : 1) * dim; ++c)
+          forces.push_back(before.are_known && now.time > before.time
+                               ? (before.of_walls[c] - now.of_walls[c]) / (now.time - before.time) // on the wall
+                               : std::numeric_limits<double>::quiet_NaN());
+        if (has_water)
+          forces.push_back(pressure[walls[i]]);
+      }
+    at_last_forces = now;
+    return forces;
+  }
 
 
   template <int dim>
@@ -372,38 +336,51 @@ namespace scree
                       RunFolder &folder)
       : has_soil(has_soil)
       , has_water(water_walls != nullptr)
-      , folder(folder)
+      , with_wall_forces(parameters.wall_forces)
   {
-    std::vector<std::string> names = has_soil ? PlaceValues<dim>::names_of_soil() : std::vector<std::string>();
-    if (has_water)
-      for (const std::string &name : PlaceValues<dim>::names_of_water())
-        names.push_back(name);
-    const auto new_group = [&](const bool of_pictures, const std::vector<NamedPlace> &places) -> Group & {
-      Group &group = groups.emplace_back(Group{ of_pictures, {}, {}, {} });
+    const auto add_group = [&](const bool of_pictures,
+                               const std::vector<NamedPlace> &places,
+                               const std::vector<std::string> &columns,
+                               const auto &rows) {
+      Group &group = groups.emplace_back(Group{ of_pictures, { "Time (s)" }, {}, rows });
+      group.columns.insert(group.columns.end(), columns.begin(), columns.end());
       for (const NamedPlace &place : places)
         group.tables.push_back(&tables.emplace_back(folder, "probe_" + place.name));
-      return group;
     };
+    const auto columns_of = [&](std::vector<std::string> of_soil, const std::vector<std::string> &of_water) {
+      if (!has_soil)
+        of_soil.clear();
+      if (has_water)
+        of_soil.insert(of_soil.end(), of_water.begin(), of_water.end());
+      return of_soil;
+    };
+    // Calls its last argument with the soil's points and with the water's.
+    const auto for_each_phase = [this, &grid](const State &state, const auto &act) {
+      if (this->has_soil)
+        act(point_volumes(state.bodies), true);
+      if (has_water)
+        act(point_volumes(state.bodies, state.water, grid), false);
+    };
+    const auto names = columns_of(PlaceValues<dim>::names_of_soil(), PlaceValues<dim>::names_of_water());
 
     const std::vector<NamedPlace> list_of_places = parameters.list_of("Places", dim);
     std::vector<Point<dim>> points;
     for (const NamedPlace &place : list_of_places)
       points.emplace_back(vector_of<dim>(place.points[0].data()));
-    Group &places  = new_group(false, list_of_places);
-    places.columns = names;
-    places.rows    = [this, values = PlaceValues<dim>(grid, points)](const auto &state) {
+    add_group(false, list_of_places, names, [this, values = PlaceValues<dim>(grid, points)](const State &state) {
       return state_at(values, state);
-    };
+    });
 
     for (const NamedPlace &line : parameters.list_of("Lines", dim))
       {
-        Group &group  = new_group(true, { line });
-        group.columns = { "Distance (m)", "x (m)", "y (m)" };
-        if (dim == 3)
-          group.columns.push_back("z (m)");
-        group.columns.insert(group.columns.end(), names.begin(), names.end());
-        group.rows = [this, values = PlaceValues<dim>(grid, places_on_line<dim>(line, parameters.places_a_line))](
-                         const auto &state) {
+        const Point<dim> begin(vector_of<dim>(line.points[0].data())), end(vector_of<dim>(line.points[1].data()));
+        std::vector<Point<dim>> places;
+        for (unsigned int i = 0; i < parameters.places_a_line; ++i)
+          places.push_back(begin + i / (parameters.places_a_line - 1.) * (end - begin));
+        std::vector<std::string> columns{ "Distance (m)", "x (m)", "y (m)", "z (m)" };
+        columns.resize(1 + dim);
+        columns.insert(columns.end(), names.begin(), names.end());
+        add_group(true, { line }, columns, [this, values = PlaceValues<dim>(grid, places)](const State &state) {
           Rows rows        = state_at(values, state);
           const auto &from = values.places;
           for (unsigned int i = 0; i < rows.size(); ++i)
@@ -412,65 +389,60 @@ namespace scree
               rows[i].insert(rows[i].begin(), from[i].distance(from.front()));
             }
           return rows;
-        };
+        });
       }
 
     const std::vector<NamedPlace> list_of_verticals = parameters.list_of("Verticals", dim);
-    Group &verticals                                = new_group(false, list_of_verticals);
-    if (has_soil)
-      verticals.columns = { "Surface height (m)", "Thickness (m)" };
-    if (has_water)
-      verticals.columns.push_back("Water level (m)");
     Rows feet;
     for (const NamedPlace &vertical : list_of_verticals)
       feet.push_back(vertical.points[0]);
-    verticals.rows = [this, feet, &grid](const auto &state) {
-      Rows rows(feet.size());
-      if (this->has_soil)
-        {
-          const auto columns = ground_columns(point_volumes(state.bodies), feet, grid);
-          for (unsigned int i = 0; i < rows.size(); ++i)
-            rows[i] = { columns[i].height, columns[i].thickness };
-        }
-      if (has_water)
-        {
-          const auto columns = ground_columns(point_volumes(state.bodies, state.water, grid), feet, grid);
-          for (unsigned int i = 0; i < rows.size(); ++i)
-            rows[i].push_back(columns[i].height);
-        }
-      return rows;
-    };
+    add_group(false,
+              list_of_verticals,
+              columns_of({ "Surface height (m)", "Thickness (m)" }, { "Water level (m)" }),
+              [for_each_phase, feet, &grid](const State &state) {
+                Rows rows(feet.size());
+                for_each_phase(state, [&](const auto &lumps, const bool is_soil) {
+                  const auto columns = ground_columns(lumps, feet, grid);
+                  for (unsigned int i = 0; i < rows.size(); ++i)
+                    {
+                      rows[i].push_back(columns[i].height);
+                      if (is_soil)
+                        rows[i].push_back(columns[i].thickness);
+                    }
+                });
+                return rows;
+              });
 
     if (parameters.front_thickness > 0)
-      {
-        Group &front = new_group(false, { { "front", {} } });
-        if (has_soil)
-          front.columns = { "Rear (m)", "Front (m)" };
-        if (has_water)
-          front.columns.insert(front.columns.end(), { "Water rear (m)", "Water front (m)" });
-        front.rows = [this, &grid, thickness = parameters.front_thickness](const auto &state) {
-          std::vector<double> row;
-          const auto add = [&](const std::vector<PointVolume<dim>> &lumps) {
-            const auto [rear, tip] = rear_and_front(lumps, thickness, grid);
-            row.insert(row.end(), { rear, tip });
-          };
-          if (this->has_soil)
-            add(point_volumes(state.bodies));
-          if (has_water)
-            add(point_volumes(state.bodies, state.water, grid));
-          return Rows{ row };
-        };
-      }
+      add_group(false,
+                { { "front", {} } },
+                columns_of({ "Rear (m)", "Front (m)" }, { "Water rear (m)", "Water front (m)" }),
+                [for_each_phase, &grid, thickness = parameters.front_thickness](const State &state) {
+                  Rows rows(1);
+                  for_each_phase(state, [&](const auto &lumps, const bool) {
+                    const auto [rear, tip] = rear_and_front(lumps, thickness, grid);
+                    rows[0].insert(rows[0].end(), { rear, tip });
+                  });
+                  return rows;
+                });
 
-    if (parameters.wall_forces)
-      {
-        wall_forces   = std::make_unique<WallForces<dim>>(grid, box_walls, water_walls);
-        Group &walls  = new_group(false, { { "walls", {} } });
-        walls.columns = wall_forces->names();
-        walls.rows    = [this](const auto &state) {
-          return Rows{ wall_forces->collect(state.totals, state.time, state.view) };
-        };
-      }
+    if (!with_wall_forces)
+      return;
+    std::vector<std::string> columns;
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      if (!box_walls.is_open(face) || (has_water && !water_walls->is_open(face)))
+        {
+          const std::string name = FaceEntries::names(dim)[face];
+          walls.push_back(face);
+          for (const std::string phase : { " soil ", " water " })
+            for (unsigned int a = 0; a < dim && (has_water || phase == " soil "); ++a)
+              columns.push_back(name + phase + "xyz"[a] + " (N)");
+          if (has_water)
+            columns.push_back(name + " pressure " + "xyz"[face / 2] + " (N)");
+        }
+    add_group(false, { { "walls", {} } }, columns, [this, &grid](const State &state) {
+      return Rows{ wall_forces(state, grid) };
+    });
   }
 
 

@@ -120,25 +120,21 @@ namespace scree
       double distance, volume, fall; // m, m^3, m
     };
     std::vector<Gain> gains;
-    Point<dim> top;
-    bool has_lost = false;
+    std::optional<Point<dim>> top;
     for (std::size_t c = 0; c < thickness.size(); ++c)
       if (start_thickness[c] - thickness[c] > least)
-        if (const Point<dim> x = surface(c, start_height); !has_lost || up * (x - top) > 0.)
-          {
-            has_lost = true;
-            top      = x;
-          }
+        if (const Point<dim> x = surface(c, start_height); !top || up * (x - *top) > 0.)
+          top = x;
     last.area = last.volume = last.length = last.fall = last.travel_angle = 0.;
     for (std::size_t c = 0; c < thickness.size(); ++c)
       if (const double gain = thickness[c] - start_thickness[c]; gain > least)
         {
-          const Tensor<1, dim> path = surface(c, height) - top;
+          const Tensor<1, dim> path = surface(c, height) - top.value_or(Point<dim>());
           gains.push_back({ (path - (path * up) * up).norm(), gain * columns.area(), -(path * up) });
           last.area += columns.area();
           last.volume += gain * columns.area();
         }
-    if (!has_lost || gains.empty())
+    if (!top || gains.empty())
       return;
     std::sort(gains.begin(), gains.end(), [](const Gain &a, const Gain &b) { return a.distance < b.distance; });
     double below = 0.;
@@ -207,6 +203,30 @@ namespace scree
 
   namespace
   {
+    /// Least distance of a point from the surface, m, see DiscreteLevelSet::distance_of(). Collective.
+    template <int dim>
+    double least_distance(const Snapshot<dim> &now, const DiscreteLevelSet<dim> &surface)
+    {
+      double least       = surface.reach();
+      const auto include = [&](const PointSet<dim> &points) {
+        for (const auto &cell : points.cells())
+          if (surface.least_distance(cell.cell) < least)
+            for_each_point(cell, [&](const auto &point) {
+              least = std::min(
+                  least,
+                  surface.distance_of(point.cell, point.reference_location, point.location, std::min(0., least)));
+            });
+      };
+      for (const auto &body : now.bodies)
+        if (!body.is_rigid)
+          include(body.points);
+      for (const auto &part : now.water)
+        if (part.carrier() == nullptr)
+          include(part.points());
+      return Utilities::MPI::min(least, now.grid.communicator());
+    }
+
+
     /// What each obstacle takes of soil and water: the opposite of what it gives them.
     template <int dim>
     void add_obstacles(const Snapshot<dim> &now, StatisticsRow &row)
@@ -239,15 +259,24 @@ namespace scree
     }
 
 
+    /// The x below which these parts of the mass are.
+    template <int dim, typename Phases>
+    void add_fronts(const Snapshot<dim> &now, const Phases &phases, const std::string &name, StatisticsRow &row)
+    {
+      const auto fronts = mass_percentiles(phases, now.grid, { 0.90, 0.99, 0.995 });
+      add_value(row, name + " 90 %", "m", fronts[0]);
+      add_value(row, name + " 99 %", "m", fronts[1]);
+      add_value(row, name + " 99.5 %", "m", fronts[2]);
+    }
+
+
     template <int dim>
     void add_soil(const Snapshot<dim> &now, StatisticsRow &row)
     {
       const PointSums<dim> &sums  = now.sums;
       const UpdateReport &updates = now.totals.material;
       const MotionNumbers &motion = now.motion;
-      add_value(row, "Front 90 %", "m", now.fronts[0]);
-      add_value(row, "Front 99 %", "m", now.fronts[1]);
-      add_value(row, "Front 99.5 %", "m", now.fronts[2]);
+      add_fronts(now, now.bodies, "Front", row);
       add_value(row, "Height", "m", std::max(sums.height, now.grid.lower_corner()[dim - 1]));
       add_value(row, "Stress oscillation", "-", stress_oscillation(now.bodies, now.grid));
       add_value(row, "Mean effective stress", "Pa", sums.soil_points > 0 ? sums.pressure / sums.soil_points : 0.);
@@ -272,7 +301,7 @@ namespace scree
     template <int dim>
     void add_water(const Snapshot<dim> &now, StatisticsRow &row)
     {
-      const WaterMeasures &water = now.of_water;
+      const WaterMeasures water  = measure_water(now.bodies, now.water, now.grid);
       const Budget<dim> &balance = now.totals.balance, &before = now.before.balance;
       add_value(row, "Water points", "", water.n_points);
       add_value(row, "Water mass", "kg", water.mass);
@@ -282,9 +311,7 @@ namespace scree
       add_value(row, "Largest p", "Pa", water.largest_pressure);
       add_value(row, "p oscillation", "-", pressure_oscillation(now.water, now.grid));
       add_value(row, "Volume error", "-", water.volume_error);
-      add_value(row, "Water front 90 %", "m", now.water_fronts[0]);
-      add_value(row, "Water front 99 %", "m", now.water_fronts[1]);
-      add_value(row, "Water front 99.5 %", "m", now.water_fronts[2]);
+      add_fronts(now, now.water, "Water front", row);
       add_value(row, "Water tip", "m", water.tip);
       if (!now.bodies.empty())
         add_value(row, "Largest porosity", "-", now.sums.largest_porosity);
@@ -334,10 +361,7 @@ namespace scree
         {
           add_value(row, "Bed dissipation", "J", balance.bed_dissipation);
           add_value(row, "Bed impulse", "N s", -balance.bed_impulse);
-          add_value(row,
-                    "Least distance from bed",
-                    "m",
-                    least_distance(now.bodies, now.water, *features.bed, now.grid.communicator()));
+          add_value(row, "Least distance from bed", "m", least_distance(now, *features.bed));
         }
       if (features.obstacles != nullptr)
         add_obstacles(now, row);
@@ -356,7 +380,7 @@ namespace scree
         add_value(row, "Load work", "J", balance.load_work);
       if (features.volume_correction)
         add_value(row, "Volume correction work", "J", balance.correction_work);
-      for (const auto &[first_name, add] : registered_columns<dim>())
+      for (const auto &[name, add] : registered_columns<dim>())
         add(now, row);
       return row;
     }
@@ -372,7 +396,6 @@ namespace scree
                                          const double time_step,
                                          const UpdateReport &last_step)
   {
-    const std::vector<double> fronts{ 0.90, 0.99, 0.995 };
     const Snapshot<dim> now{ grid,
                              further,
                              bodies,
@@ -380,9 +403,6 @@ namespace scree
                              history,
                              last_step,
                              PointSums<dim>(bodies, water, gravity, grid.communicator()),
-                             water.empty() ? WaterMeasures() : measure_water(bodies, water, grid),
-                             bodies.empty() ? std::vector<double>() : mass_percentiles(bodies, grid, fronts),
-                             water.empty() ? std::vector<double>() : mass_percentiles(water, grid, fronts),
                              bodies.empty() ? MotionNumbers() : motion.look(bodies, time),
                              local.sum_over_ranks(grid.communicator()),
                              time,

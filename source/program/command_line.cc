@@ -51,22 +51,18 @@ namespace scree
       std::string belongs_to;   ///< that option
     };
 
-    const std::vector<Option> &options()
-    {
-      static const std::vector<Option> table{ { "--resume", Task::resume, "" },
-                                              { "--safety", Task::safety, "" },
-                                              { "--advise", Task::advise, "" },
-                                              { "--accuracy", {}, "--advise" },
-                                              { "--print-parameters", Task::print_parameters, "" },
-                                              { "--json", {}, "--print-parameters" },
-                                              { "--sections", {}, "--print-parameters" },
-                                              { "--new", Task::new_case, "" },
-                                              { "--overwrite", {}, "--new" },
-                                              { "--version", Task::version, "" },
-                                              { "--help", Task::help, "" },
-                                              { "-h", Task::help, "" } };
-      return table;
-    }
+    const std::vector<Option> options{ { "--resume", Task::resume, "" },
+                                       { "--safety", Task::safety, "" },
+                                       { "--advise", Task::advise, "" },
+                                       { "--accuracy", {}, "--advise" },
+                                       { "--print-parameters", Task::print_parameters, "" },
+                                       { "--json", {}, "--print-parameters" },
+                                       { "--sections", {}, "--print-parameters" },
+                                       { "--new", Task::new_case, "" },
+                                       { "--overwrite", {}, "--new" },
+                                       { "--version", Task::version, "" },
+                                       { "--help", Task::help, "" },
+                                       { "-h", Task::help, "" } };
 
 
     InputError fault(const std::string &text)
@@ -80,7 +76,7 @@ namespace scree
     {
       const std::size_t first  = word.find_first_not_of('-');
       const std::string dashed = "--" + (first == std::string::npos ? "" : word.substr(first));
-      const auto close         = nearest(names_of(options()), dashed);
+      const auto close         = nearest(names_of(options), dashed);
       return close.empty() ? "" : " Did you mean " + quoted(close.front()) + '?';
     }
 
@@ -88,19 +84,10 @@ namespace scree
     const Option &find_option(const std::string &word)
     {
       const auto found =
-          std::find_if(options().begin(), options().end(), [&](const Option &option) { return option.name == word; });
-      if (found == options().end())
+          std::find_if(options.begin(), options.end(), [&](const Option &option) { return option.name == word; });
+      if (found == options.end())
         throw fault("there is no option " + quoted(word) + '.' + meant(word));
       return *found;
-    }
-
-
-    double accuracy_of(const std::string &text)
-    {
-      const double accuracy = number_of(text);
-      if (!(accuracy > 0 && accuracy < 1))
-        throw fault("\"--accuracy\" is " + quoted(text) + ". Write a relative error between 0 and 1, such as 0.05.");
-      return accuracy;
     }
 
 
@@ -136,7 +123,10 @@ namespace scree
               {
                 if (++w == words.size())
                   throw fault("after \"--accuracy\", a relative error is missing. Write one, such as 0.05.");
-                sorted.accuracy = accuracy_of(words[w]);
+                sorted.accuracy = number_of(words[w]);
+                if (!(sorted.accuracy > 0 && sorted.accuracy < 1))
+                  throw fault("\"--accuracy\" is " + quoted(words[w]) +
+                              ". Write a relative error between 0 and 1, such as 0.05.");
               }
             if (!option.task)
               continue;
@@ -374,7 +364,7 @@ namespace scree
       if (arguments.has("--sections"))
         parameters.print_sections(arguments.name, out);
       else if (arguments.has("--json"))
-        parameters.print_json(out);
+        parameters.print(out, ParameterHandler::JSON | ParameterHandler::KeepDeclarationOrder);
       else if (arguments.name.empty())
         parameters.print(out);
       else

@@ -77,7 +77,7 @@ namespace scree
     log_case(scene, folder);
     results.cut();
     folder.log("Resumed at t = " + number_text(clock.time()) + " s, step " + std::to_string(clock.step()) + ", from " +
-               checkpoint.folder + " of " + checkpoint.manifest.program + '.');
+               checkpoint.folder + " of " + checkpoint.program + '.');
     for (const std::string &note : notes)
       folder.log(note);
   }

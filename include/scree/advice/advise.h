@@ -152,12 +152,6 @@ namespace scree
   /// Finds the simplest model that is within 5 % in this scene, by the thresholds.
   RegimeChoice regime_choice(const SceneNumbers &scene);
 
-  /// Its regime alone.
-  inline Regime regime_of(const SceneNumbers &scene)
-  {
-    return regime_choice(scene).regime;
-  }
-
   /// Whose points should carry the water, and why.
   struct PointSetChoice
   {

@@ -244,16 +244,11 @@ namespace scree
       return file.error(error.what());
     }
 
-    /// Writes every entry with its value, default and explanation.
-    void print(std::ostream &out)
+    /// Writes every entry with its value, default and explanation; as JSON also with its pattern.
+    void print(std::ostream &out,
+               const dealii::ParameterHandler::OutputStyle style = dealii::ParameterHandler::PRM) const
     {
-      handler.print_parameters(out, dealii::ParameterHandler::PRM);
-    }
-
-    /// All entries in the order of their declaration, with patterns, as JSON.
-    void print_json(std::ostream &out)
-    {
-      handler.print_parameters(out, dealii::ParameterHandler::JSON | dealii::ParameterHandler::KeepDeclarationOrder);
+      handler.print_parameters(out, style);
     }
 
     /// Writes the paths of the subsections, one per line: all of them, or those of and below one.

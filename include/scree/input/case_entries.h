@@ -33,15 +33,6 @@ namespace scree
                       std::string &path,
                       const std::string &documentation);
 
-  /// Whether add_file_entry() declared the entry that has this pattern.
-  bool is_file_pattern(const std::string &pattern);
-
-  /// The path from the working folder of a file that `reader` names.
-  std::string path_beside(const std::string &reader, const std::string &file);
-
-  /// The checksum of a file's contents, in hexadecimal digits; empty if it is no regular file that can be read.
-  std::string checksum_of_file(const std::string &path);
-
   /// An entry of a case with its value, set or default.
   struct CaseEntry
   {

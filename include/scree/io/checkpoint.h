@@ -27,23 +27,17 @@ namespace scree
     }
   };
 
-  /// The head of a checkpoint: who wrote it, and the files that belong to it. Written last, as the file `manifest`,
-  /// under a checksum of its own.
-  struct Manifest
+  /// A whole checkpoint of a run. Its head, all but the entries, is written last, as the file `manifest`, under a
+  /// checksum of its own.
+  struct Checkpoint
   {
+    std::string folder;             ///< path of its folder
     std::string program;            ///< that wrote it
     unsigned int dimension = 0;     ///< 2 or 3
     double time            = 0;     ///< s
     std::uint64_t step     = 0;     ///< number of the time step
     std::vector<CheckedFile> files; ///< files of the checkpoint but the manifest
-  };
-
-  /// A whole checkpoint of a run.
-  struct Checkpoint
-  {
-    std::string folder;  ///< path of its folder
-    Manifest manifest;   ///< its files and their checksums
-    CaseEntries entries; ///< of the case that wrote it
+    CaseEntries entries;            ///< of the case that wrote it
   };
 
   using SaveState = std::function<void(boost::archive::binary_oarchive &)>; ///< writes the state of a run

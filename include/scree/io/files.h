@@ -33,14 +33,12 @@ namespace scree
   /// The FileError after a call has failed that was to write `n_bytes` to `file`: the cause is errno's.
   FileError error_of_writing(const std::string &file, const std::uintmax_t n_bytes);
 
-  /// Replaces `file` by one of this content, so that at any instant the old or the new one is there as a whole: writes
-  /// beside it, checks, brings it to the disk (fsync) and renames. Throws FileError; the old one then stays.
-  void write_whole_file(const std::string &file, std::string content);
-
   /// Path and content of a file.
   using FileContent = std::pair<std::string, std::string>;
 
-  /// The same of several files of a folder: they get their names in this order, when all of them are on the disk.
+  /// Replaces files of a folder, so that at any instant the old or the new one of each is there as a whole: writes
+  /// beside them, checks, brings them to the disk (fsync) and renames them in this order, when all of them are there.
+  /// Throws FileError; old ones then stay.
   void write_whole_files(const std::vector<FileContent> &files);
 
   /// The content of `file`. Throws FileError.
@@ -150,6 +148,12 @@ namespace scree
     {
       while (jobs.size() > 1)
         end_stage();
+      if (n_ranks == 1) // It does not wait between the stages.
+        job.stages = { [stages = std::move(job.stages)] {
+          for (const auto &write : stages)
+            if (write)
+              write();
+        } };
       jobs.push_back(std::move(job));
       if (jobs.size() == 1)
         begin_job();

@@ -119,8 +119,6 @@ namespace scree
                          const MPI_Comm communicator);
 
   private:
-    /// What bounded the steps, and how many of them.
-    std::string text_of_limits() const;
     double percent(const StepLimit limit) const
     {
       return n_steps() > 0 ? 100. * counts[static_cast<unsigned int>(limit)] / n_steps() : 0.;

@@ -32,11 +32,11 @@ namespace scree
     /// Removes log, rows, pictures, maps and checkpoints of an earlier run. Collective.
     void remove_old_results();
 
-    /// Writes a file of the folder with the given text, see write_whole_file().
+    /// Writes a file of the folder with the given text, see write_whole_files().
     void write(const std::string &name, const std::string &text) const
     {
       if (writer)
-        write_whole_file(file(name), text);
+        write_whole_files({ { file(name), text } });
     }
 
     /// Throws EntryError on all ranks if somebody has removed the folder. Collective.

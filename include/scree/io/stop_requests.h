@@ -54,9 +54,6 @@ namespace scree
   private:
     using Time = std::chrono::steady_clock::time_point;
 
-    bool file_is_there(const Time now);
-    bool time_is_over(const Time now);
-
     const std::string terminate_file;
     const double wall_time_limit; // s
     const Time start;

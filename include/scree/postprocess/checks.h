@@ -82,10 +82,6 @@ namespace scree
     };
     using Suspects = std::array<Suspect, n_checks>;
 
-    /// Looks at the points of a set: calls `look(point, name)`, where name() is that of the point.
-    template <class Look>
-    static void for_each_named(const std::string &set, const PointSet<dim> &points, const Look &look);
-
     /// Takes a point of this rank if it is worse than those before.
     template <class Name>
     void suspect(const Check check, const double value, const double found, const Name &name);
@@ -93,13 +89,13 @@ namespace scree
     void look_at_places(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water);
     void look_at_dilation(const SoilBody<dim> &body);
     void look_at_walls(const std::list<SoilBody<dim>> &bodies);
-    void look_at_speeds(const std::list<SoilBody<dim>> &bodies, const std::list<WaterPhase<dim>> &water);
 
-    /// Takes the worst of all ranks and logs what is wrong for the first time. Collective.
-    void agree(const double time);
+    /// @param usual the largest 99.9 % quantile of the speeds so far, m/s
+    template <class Phases>
+    void look_at_speeds(const Phases &phases, double &usual);
 
-    static bool is_wrong(const unsigned int check, const double value);
-    static std::string text(const unsigned int check, const Suspect &suspect);
+    /// A check in words; without a text it does not apply.
+    CheckResult result(const unsigned int check) const;
 
     const BackgroundGrid<dim> &grid;
     const dealii::Tensor<1, dim> gravity;
@@ -157,9 +153,6 @@ namespace scree
       constexpr double of_a_cell = 1e-3; // a fall of this part of the cell size
       return of_a_cell * (soil_mass + water_mass) * gravity.norm() * grid.cell_size();
     }
-
-    /// Whether the motion was slow, for mass scaling.
-    CheckResult check_of_motion() const;
 
     /// Energy that the run had to spend, J; 0 if too little of it for percentages.
     double released_energy() const

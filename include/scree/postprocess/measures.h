@@ -22,12 +22,6 @@ namespace scree
     double water_mass          = 0; ///< kg
     double water_volume        = 0; ///< m^3
 
-    /// Whether no point lies in the cell.
-    bool is_empty() const
-    {
-      return n_soil_points == 0 && n_water_points == 0;
-    }
-
     /// Of the soil; 1 without soil.
     double porosity() const
     {
@@ -115,24 +109,22 @@ namespace scree
   class CellColumns
   {
   public:
-    /// Keeps a reference to the grid.
+    /// Keeps a reference to the grid's box.
     explicit CellColumns(const BackgroundGrid<dim> &grid)
-        : grid(grid)
+        : box(grid.fine_cells().box())
     {
-      for (unsigned int a = 0; a < dim; ++a)
-        n[a] = std::lround((grid.upper_corner()[a] - grid.lower_corner()[a]) / grid.cell_size());
     }
 
     /// Their number.
     std::size_t size() const
     {
-      return dim == 3 ? n[0] * n[1] : n[0];
+      return dim == 3 ? std::size_t(box.n[0]) * box.n[1] : box.n[0];
     }
 
     /// Area of each, m^2 (2D: width, m).
     double area() const
     {
-      return dealii::Utilities::fixed_power<dim - 1>(grid.cell_size());
+      return dealii::Utilities::fixed_power<dim - 1>(box.width);
     }
 
     /// The middle of a column, with 0 as its last coordinate, m.
@@ -140,8 +132,8 @@ namespace scree
     {
       dealii::Point<dim> x;
       std::size_t rest = column;
-      for (unsigned int a = 0; a + 1 < dim; ++a, rest /= n[a - 1])
-        x[a] = grid.lower_corner()[a] + (rest % n[a] + 0.5) * grid.cell_size();
+      for (unsigned int a = 0; a + 1 < dim; ++a, rest /= box.n[a - 1])
+        x[a] = box.lower[a] + (rest % box.n[a] + 0.5) * box.width;
       return x;
     }
 
@@ -149,15 +141,7 @@ namespace scree
     /// columns outside the box counts for those at its edge, so that the weights' sum is 1.
     std::array<std::pair<std::size_t, double>, (1 << (dim - 1))> around(const dealii::Point<dim> &x) const;
 
-    /// Cells along each axis.
-    const std::array<std::size_t, dim> &n_cells() const
-    {
-      return n;
-    }
-
-  private:
-    const BackgroundGrid<dim> &grid;
-    std::array<std::size_t, dim> n;
+    const CellsOfBox<dim> &box; ///< with the number of cells along each axis
   };
 
   /// A piece of material around a point: its place, m, and volume with pores, m^3 (2D: per m).
@@ -236,13 +220,6 @@ namespace scree
     });
     return percentiles(parts, grid.lower_corner()[0], grid.upper_corner()[0], fractions, grid.communicator());
   }
-
-  /// Least distance of a point from the surface, m, see DiscreteLevelSet::distance_of(). Collective.
-  template <int dim>
-  double least_distance(const std::list<SoilBody<dim>> &bodies,
-                        const std::list<WaterPhase<dim>> &water,
-                        const DiscreteLevelSet<dim> &surface,
-                        const MPI_Comm communicator);
 
   /// Oscillation of P: the rms, over the points of all bodies, of P minus a linear fit of P over the 3^dim cells around
   /// the point's cell, over the mean of P. 0 where the soil has no stress. Collective.

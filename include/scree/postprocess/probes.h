@@ -25,7 +25,7 @@ namespace scree
       for (unsigned int i = 0; i < places.size(); ++i)
         for (unsigned int n = 0; n < dealii::Utilities::fixed_power<dim>(3u); ++n)
           {
-            CellPlace cell;
+            CellPlace<dim> cell;
             for (unsigned int a = 0, rest = n; a < dim; ++a, rest /= 3)
               cell[a] = static_cast<int>(std::floor((places[i][a] - grid.lower_corner()[a]) / grid.cell_size())) +
                         static_cast<int>(rest % 3) - 1;
@@ -65,94 +65,21 @@ namespace scree
     const std::vector<dealii::Point<dim>> places; ///< m, in the order of the rows
 
   private:
-    using CellPlace = std::array<int, dim>; // numbers of a cell along the axes
-    struct Sums;
-
-    /// The places whose values the points of a cell touch.
-    const std::vector<unsigned int> &near(const ConstCellPoints<dim> &cell) const
-    {
-      static const std::vector<unsigned int> none;
-      CellPlace key;
-      for (unsigned int a = 0; a < dim; ++a)
-        key[a] = static_cast<int>(std::lround((cell.location_of(0)[a] - grid.lower_corner()[a]) / grid.cell_size() -
-                                              cell.reference_location_of(0)[a]));
-      const auto found = places_near_cell.find(key);
-      return found == places_near_cell.end() ? none : found->second;
-    }
+    /// @param for_each_set calls its argument with each set of points and a function that reads the properties of a
+    /// point into its second argument, `n_values` values, and returns the mass, kg
+    template <typename ForEachSet>
+    std::vector<std::vector<double>> values_at_places(const unsigned int n_values,
+                                                      const ForEachSet &for_each_set) const;
 
     /// Adds a point to the sums of a place, unless it is too far.
-    void add(Sums &sums,
+    void add(double *sums,
              const unsigned int place,
              const dealii::Point<dim> &x,
              const double mass,
              const std::vector<double> &values) const;
 
-    std::vector<std::vector<double>> fit(Sums &sums) const;
-
     const BackgroundGrid<dim> &grid;
-    std::map<CellPlace, std::vector<unsigned int>> places_near_cell;
-  };
-
-  /// The mean force of soil and water on each wall of the box between two calls, N (2D: N/m). Walls are the faces that
-  /// are closed to soil or water.
-  template <int dim>
-  class WallForces
-  {
-  public:
-    /// @param water_walls null in a dry scene
-    WallForces(const BackgroundGrid<dim> &grid,
-               const BoundaryConditions<dim> &walls,
-               const BoundaryConditions<dim> *water_walls)
-        : grid(grid)
-        , is_wet(water_walls != nullptr)
-    {
-      for (unsigned int f = 0; f < 2 * dim; ++f)
-        if (!walls.is_open(f) || (is_wet && !water_walls->is_open(f)))
-          faces.push_back(f);
-    }
-
-    /// Names of the columns of collect(), with their unit.
-    std::vector<std::string> names() const
-    {
-      std::vector<std::string> result;
-      const std::vector<std::string> of_face = FaceEntries::names(dim);
-      for (const unsigned int face : faces)
-        {
-          for (const std::string phase : { " soil ", " water " })
-            if (is_wet || phase == " soil ")
-              for (unsigned int a = 0; a < dim; ++a)
-                result.push_back(of_face[face] + phase + "xyz"[a] + " (N)");
-          if (is_wet)
-            result.push_back(of_face[face] + " pressure " + "xyz"[face / 2] + " (N)");
-        }
-      return result;
-    }
-
-    /// The forces since the last call, nan at the first one: of the soil and of the water (what walls take of their
-    /// motion; the soil's is the effective one), and the pore pressure's across the wall at this instant, of its
-    /// positive part over the cells that hold water. Collective.
-    /// @param totals sums of this rank since the start
-    /// @param time s
-    /// @param view null in a dry scene
-    std::vector<double> collect(const Budget<dim> &totals, const double time, const WaterView<dim> *view);
-
-    /// Saves or loads time and impulses of the last call (Boost).
-    template <class Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive &has_start &last_time &last_impulses;
-    }
-
-  private:
-    /// Force of the pore pressure on each face, N, of all ranks.
-    std::vector<double> pressure_forces(const WaterView<dim> &view) const;
-
-    const BackgroundGrid<dim> &grid;
-    const bool is_wet;
-    std::vector<unsigned int> faces; // the walls
-    bool has_start   = false;
-    double last_time = 0;
-    std::vector<double> last_impulses; // of all ranks, in the order of impulses()
+    std::map<CellPlace<dim>, std::vector<unsigned int>> places_near_cell;
   };
 
   /// A place, a line or a vertical of a case: its name, which is that of its file, and its one or two points, m.
@@ -233,23 +160,44 @@ namespace scree
     {
       for (TableFile &table : tables)
         archive &table;
-      if (wall_forces)
-        archive &*wall_forces;
+      if (with_wall_forces)
+        archive &at_last_forces;
     }
 
   private:
-    using Rows = std::vector<std::vector<double>>;
+    using Rows  = std::vector<std::vector<double>>;
+    using State = ProbedState<dim>;
 
     /// Tables that are written together.
     struct Group
     {
-      bool of_pictures;                 // or of rows of statistics
-      std::vector<std::string> columns; // besides the time
+      bool of_pictures; // or of rows of statistics
+      std::vector<std::string> columns;
       std::vector<TableFile *> tables;
-      std::function<Rows(const ProbedState<dim> &)> rows; // one a table; a single table has all of them
+      std::function<Rows(const State &)> rows; // without the time; one a table; a single table has all of them
     };
 
-    void write(const ProbedState<dim> &state, const bool of_pictures)
+    /// What the walls have given at some time.
+    struct Impulses
+    {
+      bool are_known               = false;
+      double time                  = 0;  ///< s
+      std::vector<double> of_walls = {}; ///< of all ranks, wall by wall: on the soil, on the water, N s
+
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &are_known &time &of_walls;
+      }
+    };
+
+    /// The mean forces of soil and water on the walls since the last call, N (2D: N/m), nan at the first one: wall by
+    /// wall of the soil and of the water (what walls take of their motion; the soil's is the effective one), and the
+    /// pore pressure's across the wall at this instant, of its positive part over the cells that hold water.
+    /// Collective.
+    std::vector<double> wall_forces(const State &state, const BackgroundGrid<dim> &grid);
+
+    void write(const State &state, const bool of_pictures)
     {
       for (Group &group : groups)
         if (group.of_pictures == of_pictures && !group.tables.empty())
@@ -257,13 +205,11 @@ namespace scree
             Rows rows = group.rows(state);
             for (auto &row : rows)
               row.insert(row.begin(), state.time);
-            std::vector<std::string> columns{ "Time (s)" };
-            columns.insert(columns.end(), group.columns.begin(), group.columns.end());
             for (unsigned int t = 0; t < group.tables.size(); ++t)
-              group.tables[t]->append(columns, group.tables.size() == 1 ? rows : Rows{ rows[t] });
+              group.tables[t]->append(group.columns, group.tables.size() == 1 ? rows : Rows{ rows[t] });
           }
     }
-    Rows state_at(const PlaceValues<dim> &places, const ProbedState<dim> &state) const
+    Rows state_at(const PlaceValues<dim> &places, const State &state) const
     {
       Rows rows      = has_soil ? places.of_soil(state.bodies) : Rows(places.places.size());
       const Rows wet = has_water ? places.of_water(state.water) : Rows(rows.size());
@@ -272,11 +218,11 @@ namespace scree
       return rows;
     }
 
-    const bool has_soil, has_water;
-    RunFolder &folder;
+    const bool has_soil, has_water, with_wall_forces;
     std::list<TableFile> tables;
     std::vector<Group> groups;
-    std::unique_ptr<WallForces<dim>> wall_forces; // null without that entry
+    std::vector<unsigned int> walls; // faces that are closed to soil or water
+    Impulses at_last_forces;
   };
 } // namespace scree
 

@@ -175,8 +175,6 @@ namespace scree
   template <int dim>
   struct Snapshot
   {
-    static constexpr unsigned int dimension = dim; ///< 2 or 3
-
     const BackgroundGrid<dim> &grid;         ///< with the mesh as it is
     const SceneFeatures<dim> &further;       ///< what the scene has
     const std::list<SoilBody<dim>> &bodies;  ///< points of this rank
@@ -184,9 +182,6 @@ namespace scree
     const RowHistory<dim> &before;           ///< the start and the last row
     const UpdateReport &last_step;           ///< of this rank
     const PointSums<dim> sums;               ///< of one pass over all points
-    const WaterMeasures of_water;            ///< 0 without water
-    const std::vector<double> fronts;        ///< of the soil: x below which 90, 99 and 99.5 % of its mass are, m
-    const std::vector<double> water_fronts;  ///< the same of the water
     const MotionNumbers motion;              ///< of the soil; 0 without
     const RunBalance<dim> totals;            ///< since the start
     const double time;                       ///< s
@@ -234,21 +229,6 @@ namespace scree
   /// Values by the whole names of their columns, such as `Mass (kg)`.
   using StatisticsRow = std::vector<std::pair<std::string, double>>;
 
-  /// A column that a source file adds to the statistics. Its functions take a Snapshot<2> or a Snapshot<3>; `value` may
-  /// be collective.
-  template <typename Value, typename Exists>
-  struct Column
-  {
-    std::string name; ///< without unit
-    std::string unit; ///< empty: none
-    Value value;      ///< a number; a vector has a column an axis
-    Exists exists;    ///< whether the scene has it: the same in all rows
-  };
-
-  /// Deduces the types of the functions.
-  template <typename Value, typename Exists>
-  Column(const char *, const char *, Value, Exists) -> Column<Value, Exists>;
-
   /// Adds a value under its column's whole name.
   void add_value(StatisticsRow &row, const std::string &name, const std::string &unit, const double value);
 
@@ -261,32 +241,20 @@ namespace scree
       add_value(row, name + ' ' + "xyz"[a], unit, value[a]);
   }
 
-  /// The functions that add registered columns to a row, by the name of their first column.
+  /// The functions that add registered columns to a row, by name.
   template <int dim>
   std::map<std::string, std::function<void(const Snapshot<dim> &, StatisticsRow &)>> &registered_columns();
 
-  /// Adds columns at the end of the rows, in the order of the first one's name; their source file has one as a static
-  /// constant.
-  class RegisterColumns
+  /// Adds columns at the end of the rows, in the order of the names; their source file has one as a static constant.
+  struct RegisterColumns
   {
-  public:
-    /// @param first whose name gives the place among the registered columns
-    template <typename First, typename... Others>
-    explicit RegisterColumns(const First &first, const Others &...others)
+    /// @param add is called with a Snapshot<2> or Snapshot<3> and a StatisticsRow, and adds the values of the columns
+    /// that the scene has: the same in all rows. It may be collective.
+    template <typename Add>
+    RegisterColumns(const std::string &name, const Add &add)
     {
-      const auto add = [=](const auto &now, StatisticsRow &row) {
-        (add_column(first, now, row), ..., add_column(others, now, row));
-      };
-      registered_columns<2>()[first.name] = add;
-      registered_columns<3>()[first.name] = add;
-    }
-
-  private:
-    template <typename AnyColumn, typename AnySnapshot>
-    static void add_column(const AnyColumn &column, const AnySnapshot &now, StatisticsRow &row)
-    {
-      if (column.exists(now))
-        add_value(row, column.name, column.unit, column.value(now));
+      registered_columns<2>()[name] = add;
+      registered_columns<3>()[name] = add;
     }
   };
 

@@ -113,7 +113,7 @@ void test_regimes()
   reservoir.water_fills_soil     = false;
   tight.conductivity             = 1e-9;
   const auto has_points_of_water = [](const SceneNumbers &scene) {
-    return point_sets_for(regime_of(scene), scene).sets == PointSets::double_point;
+    return point_sets_for(regime_choice(scene).regime, scene).sets == PointSets::double_point;
   };
   require(has_points_of_water(slope()) && !has_points_of_water(tight) && !has_points_of_water(terzaghi()) &&
               has_points_of_water(reservoir),
