@@ -56,7 +56,6 @@ namespace scree
     const std::size_t n = columns.size();
     std::vector<double> sums(3 * n + 3, 0.); // thickness, its moment, moving; mass, moving mass, kinetic energy
     std::vector<PartOfMass> speeds;
-    double largest      = 0.;
     const bool is_start = start_thickness.empty();
     const auto include  = [&](const SoilBody<dim> &body, const auto &point) {
       const double mass    = point.properties[body.layout.mass];
@@ -75,18 +74,15 @@ namespace scree
       sums[3 * n + 1] += is_moving ? mass : 0.;
       sums[3 * n + 2] += 0.5 * mass * speed * speed;
       speeds.push_back({ speed, mass });
-      largest = std::max(largest, speed);
     };
     for_each_moving_point(bodies, include);
     Utilities::MPI::sum(sums, grid.communicator(), sums);
-    largest = Utilities::MPI::max(largest, grid.communicator());
 
     has_soil         = sums[3 * n] > 0.;
     last_time        = time;
     last.moving_part = has_soil ? sums[3 * n + 1] / sums[3 * n] : 0.;
-    last.speed =
-        largest > 0. ? percentiles(speeds, 0., largest * (1. + 1e-9), { part_at_rest }, grid.communicator())[0] : 0.;
-    last.thickness = median_by_volume({ sums.begin() + 2 * n, sums.begin() + 3 * n }) / grid.cell_size();
+    last.speed       = percentile(speeds, part_at_rest, grid.communicator());
+    last.thickness   = median_by_volume({ sums.begin() + 2 * n, sums.begin() + 3 * n }) / grid.cell_size();
     if (last.speed > flow_part / rest_part * rest_speed() && sums[3 * n + 2] > largest_kinetic)
       {
         largest_kinetic = sums[3 * n + 2];

@@ -149,11 +149,15 @@ namespace scree
       while (jobs.size() > 1)
         end_stage();
       if (n_ranks == 1) // It does not wait between the stages.
-        job.stages = { [stages = std::move(job.stages)] {
-          for (const auto &write : stages)
-            if (write)
-              write();
-        } };
+        {
+          auto all = [stages = std::move(job.stages)] {
+            for (const auto &write : stages)
+              if (write)
+                write();
+          };
+          job.stages.clear();
+          job.stages.emplace_back(std::move(all)); // which may hold maps: it is not copied
+        }
       jobs.push_back(std::move(job));
       if (jobs.size() == 1)
         begin_job();
