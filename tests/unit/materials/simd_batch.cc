@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Functions of a batch: to rounding, lane by lane whatever the other lanes hold, and as the C library's at odd input.
 #include "../test.h"
 
-#include <scree/simd/records.h>
+#include <scree/simd/batch.h>
 
 namespace test_simd_batch
 {
@@ -63,107 +62,6 @@ void test_odd(const std::string &name,
 }
 
 
-template <unsigned int n>
-void test_records(RandomNumbers &random)
-{
-  constexpr unsigned int stride = 17;
-  std::vector<double> in(batch_size * stride), out(in.size(), -1.);
-  for (double &value : in)
-    value = random.uniform(-1, 1);
-  RecordPointers<const double> from;
-  RecordPointers<double> to;
-  for (unsigned int l = 0; l < batch_size; ++l)
-    {
-      from[l] = &in[(batch_size - 1 - l) * stride];
-      to[l]   = &out[l * stride];
-    }
-  Batch batches[n];
-  simd::load_records<n>(from, batches);
-  simd::store_records<n>(batches, to);
-  for (unsigned int l = 0; l < batch_size; ++l)
-    for (unsigned int c = 0; c < stride; ++c)
-      {
-        require(c >= n || batches[c][l] == from[l][c], "a record is read wrongly");
-        require(to[l][c] == (c < n ? from[l][c] : -1.), "a record is written wrongly");
-      }
-}
-
-
-void test_masks()
-{
-  Batch a, b = simd::broadcast<Batch>(0.5);
-  for (unsigned int l = 0; l < batch_size; ++l)
-    a[l] = l % 2 == 0 ? -1. : 1.;
-  const simd::Mask<Batch> negative = a < 0.;
-  require(simd::bits_of(negative) == (0x55u & ((1u << batch_size) - 1)), "bits of a mask");
-  require(simd::any(negative) && !simd::any(negative & !negative), "any lane of a mask");
-  require(simd::sum_of_lanes<Batch>(simd::select<Batch>(negative, a, b)) == -0.25 * batch_size, "selected lanes");
-  require(simd::largest_lane<Batch>(simd::abs<Batch>(a)) == 1. && simd::max<Batch>(a, b)[0] == 0.5 &&
-              simd::min<Batch>(a, b)[1] == 0.5 && simd::sqrt<Batch>(b)[batch_size - 1] == std::sqrt(0.5),
-          "functions of lanes");
-}
-
-
-template <typename Number>
-struct OfNumbers
-{
-  Number value;
-  simd::Mask<Number> mask;
-};
-
-/// What the laws do with numbers.
-template <typename Number>
-OfNumbers<Number> some_formula(const Number &x, const Number &y)
-{
-  Number z = -x * 2. + (3. - y) / (1. + simd::abs<Number>(x));
-  z += simd::exp<Number>(0.5 * x) - simd::log<Number>(1. / simd::max<Number>(y * y, simd::broadcast<Number>(0.1)));
-  z *= 1.5;
-  const simd::Mask<Number> mask = ((x < y) & !(z >= 1.)) | (2. * x == y - 3.) | (x > 0.9) | (z <= -2.);
-  return { simd::select<Number>(mask, z, simd::min<Number>(x, y - 0.5)), mask };
-}
-
-
-/// A pair of batches gives what each of them gives.
-void test_pairs(RandomNumbers &random)
-{
-  for (unsigned int i = 0; i < 1000; ++i)
-    {
-      OfNumbers<Batch> x[2];
-      for (auto &of_batch : x)
-        {
-          for (unsigned int l = 0; l < batch_size; ++l)
-            of_batch.value[l] = random.uniform(-1, 1);
-          of_batch.mask = of_batch.value > 0.;
-        }
-      const BatchPair x_of_two{ x[0].value, x[1].value };
-      const auto of_two              = some_formula<BatchPair>(x_of_two, BatchPair{ x[1].value, x[0].value });
-      const simd::BatchBits masks[2] = { of_two.mask.first, of_two.mask.second };
-      unsigned int bits              = 0;
-      for (unsigned int h = 0; h < 2; ++h)
-        {
-          const auto of_one = some_formula<Batch>(x[h].value, x[1 - h].value);
-          bits |= simd::bits_of(of_one.mask) << h * batch_size;
-          for (unsigned int l = 0; l < batch_size; ++l)
-            require(std::abs(simd::half(of_two.value, h)[l] - of_one.value[l]) < 1e-14 &&
-                        masks[h][l] == of_one.mask[l] &&
-                        simd::lane(of_two.value, h * batch_size + l) == simd::half(of_two.value, h)[l],
-                    "a pair is not its batches");
-        }
-      require(simd::bits_of(of_two.mask) == bits && simd::any(of_two.mask) == (bits != 0), "mask of a pair");
-    }
-
-  unsigned int next = 0;
-  for (unsigned int size = 0; size <= 4 * batch_size + 1; ++size, next = 0)
-    {
-      for_each_group<2 * batch_size>(size, [&](const auto &places, const unsigned int n) {
-        for (unsigned int l = 0; l < 2 * batch_size; ++l)
-          require(places[l] == (l < n ? next++ : size - 1), "places of a pair");
-      });
-      require(next == size, "a place is left out");
-    }
-}
-
-
 const UnitTest registered("simd_batch", [] {
   RandomNumbers random;
   std::vector<double> exponents, positive, ratios;
@@ -195,15 +93,5 @@ const UnitTest registered("simd_batch", [] {
            0.3,
            { 0., -0., -1., 5e-324, 1e-310, 2.2e-308, infinity, -infinity, nan });
   test_odd("cube root", cube_root, [](const double x) { return std::cbrt(x); }, 1.01, { 0., -1., 1e-310, 1e300, nan });
-
-  test_records<1>(random);
-  test_records<2>(random);
-  test_records<3>(random);
-  test_records<4>(random);
-  test_records<6>(random);
-  test_records<8>(random);
-  test_records<12>(random);
-  test_masks();
-  test_pairs(random);
 });
 } // namespace test_simd_batch

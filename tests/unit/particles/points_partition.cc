@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Points of the lower half of a box cost nine times those of the upper: the ranks' shares of points are even at first,
 // those of cost after a repartition by measured cost. A measurement that was interrupted spoils nothing.
 #include "../test.h"
