@@ -14,7 +14,7 @@ root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd) || exit 1
 export OMPI_MCA_mpi_yield_when_idle=1
 build=${1:-$root/build-sanitise}
 cmake -S "$root" -B "$build" -GNinja -DCMAKE_BUILD_TYPE=Release -DSCREE_NATIVE=OFF -DSCREE_SANITISE=ON &&
-  cmake --build "$build" --target scree scree-element || exit 1
+  cmake --build "$build" --target scree scree-element errors_messages || exit 1
 
 failed=0
 # check CODE NAME COMMAND...: runs it in a folder of its own; sanitisers must have been silent, and the exit code at most CODE.
@@ -49,7 +49,7 @@ for name in column_short water_short; do
   # shellcheck disable=SC2016  # for the inner shell
   check 0 "$name.resume" sh -c '"$0" "$1" && "$0" "$1" --resume' "$build/scree" "$build/cases/$name.prm"
 done
-check 0 errors python3 "$root/tests/errors/errors.py" --folder "$folder/errors" --scree "$build/scree" --element "$build/scree-element"
+check 0 errors python3 "$root/tests/errors/errors.py" --folder "$folder/errors" --command "$build/tests/errors/errors_messages"
 for case in "$root"/prm/element/*.prm; do
   check 0 "element/$(basename "$case" .prm)" "$build/scree-element" "$case"
 done

@@ -307,13 +307,14 @@ namespace scree
     /// All that the text of an advice is made of.
     struct Advice
     {
-      SceneNumbers scene;       ///< numbers that describe the case
-      Observation seen;         ///< measured steps and their cost
-      Schedule schedule;        ///< entries of time step and output
-      GridParameters grid;      ///< box and cell size
-      double accuracy      = 0; ///< relative error for which cells are recommended
-      double settling_time = 0; ///< s, at most
-      unsigned int n_ranks = 1; ///< ranks that --advise runs on
+      SceneNumbers scene;                   ///< numbers that describe the case
+      Observation seen;                     ///< measured steps and their cost
+      std::function<double(double)> memory; ///< that a run with cells of this size (m) is estimated to need, bytes
+      Schedule schedule;                    ///< entries of time step and output
+      GridParameters grid;                  ///< box and cell size
+      double accuracy      = 0;             ///< relative error for which cells are recommended
+      double settling_time = 0;             ///< s, at most
+      unsigned int n_ranks = 1;             ///< ranks that --advise runs on
       unsigned int coarser = 1; ///< how many times as wide the cells were in the first steps that were taken
       double pilot_coarser = 0; ///< and in the pilot; 0: there was none
       std::string pilot_fault;  ///< what kept it from its end
@@ -496,7 +497,7 @@ namespace scree
               (std::isfinite(schedule.time_step.maximum_time_step) ? rounded(schedule.time_step.maximum_time_step)
                                                                    : schedule.time_step.maximum));
       writer.line("points", wanted.n_points(), "");
-      writer.line("memory", megabytes(cost.memory));
+      writer.line("memory", megabytes(advice.memory(size)));
       writer.line("run", core_time(cost.seconds()));
       if (regime == Regime::drained || regime == Regime::undrained)
         {
@@ -604,6 +605,11 @@ namespace scree
     advice.settling_time      = parameters.settling.maximum_time;
     advice.n_ranks            = Utilities::MPI::n_mpi_processes(communicator);
     advice.coarser            = coarsening<dim>(parameters, communicator);
+    advice.memory             = [&](const double cell_size) {
+      parameters.grid           = advice.grid;
+      parameters.grid.cell_size = cell_size;
+      return estimate_memory<dim>(parameters).bytes(advice.n_ranks);
+    };
 
     parameters.output.screen              = "nothing";
     parameters.output.interval            = 0; // what is written is looked at by itself

@@ -430,7 +430,9 @@ namespace scree
     const auto compare = [&](const CaseEntry &entry, const CaseEntry *was, const CaseEntry *is, const bool in_both) {
       if (was && is && same_value(*was, *is))
         return;
-      const Change kind    = kind_of(entry, was, is);
+      // It acts from the release on: later, part of the run would have another strength.
+      const bool is_late   = entry.subsection == "Safety" && entry.name == "Strength factor" && checkpoint.step > 0;
+      const Change kind    = is_late ? Change::refused : kind_of(entry, was, is);
       const bool are_files = was && is && !was->checksum.empty() && !is->checksum.empty();
       const Refused change{ entry_name(entry.subsection, entry.name),
                             " = " + value_text(is),
@@ -464,6 +466,9 @@ namespace scree
     throw EntryError(first.name + first.now + ": the run that wrote " + checkpoint.folder + " had " + first.before +
                      ", and --resume cannot change that. Write it as it was, or run without --resume in another "
                      "\"Output directory\"." +
+                     (first.name == entry_name("Safety", "Strength factor")
+                          ? " A copy of the run folder with no checkpoint but step-0 goes on from the release."
+                          : "") +
                      others + (others.empty() ? "" : "."));
   }
 

@@ -37,15 +37,38 @@ def same_in_csv(results, name, columns):
     check(set(columns) <= set(rows[0]), f"{name}.csv has the columns {list(rows[0])}")
 
 
+def data_in_vtk(picture):
+    """The fields of a picture for ParaView as VTK reads them: {name with unit: array}."""
+    reader = vtkXMLPUnstructuredGridReader()
+    reader.SetFileName(str(picture))
+    reader.Update()
+    data = reader.GetOutput().GetPointData()
+    return {data.GetArrayName(i): data.GetArray(i) for i in range(data.GetNumberOfArrays())}
+
+
+def fields():
+    """The fields of pictures: of dry soil, of soil with water, whose points are its own or those of the soil, and of water alone."""
+    case = {"End time": 1e-3, "Mesh/Cell size": 0.25, "Soil/Region": "x < 0.5", "Soil/Material": "linear elastic",
+            "Soil/Initial porosity": 0.4, "Output/Interval": 1e-3, "Output/Graphics": "points and grid"}
+    scalars = ["mean_effective_stress [Pa]", "deviatoric_stress [Pa]", "stress_ratio", "mass [kg]", "volume [m^3]", "body"]
+    dry = {"points": ["velocity [m/s]", "stress [Pa]", *scalars, "id"],
+           "grid": ["velocity [m/s]", "density [kg/m^3]", "mean_effective_stress [Pa]"]}
+    water = {"water": ["velocity [m/s]", "seepage_velocity [m/s]", "pressure [Pa]", "mass [kg]", "volume [m^3]", "porosity", "inside_soil"],
+             "grid": ["velocity [m/s]", "water_velocity [m/s]", *dry["grid"][1:], "pressure [Pa]", "porosity", "saturation"]}
+    wet = {**water, "points": [*dry["points"][:2], "seepage_velocity [m/s]", *scalars, "porosity", "pore_pressure [Pa]", "id"]}
+    for name, entries, wanted in (("dry", {}, dry), ("double", {"Water/Region": "x < 0.7"}, wet),
+                                  ("single", {"Water/Point sets": "single"}, wet), ("pure", {"Bodies": "none", "Water/Region": "x < 0.7"}, water)):
+        entries = {key: value for key, value in {**case, **entries}.items() if name != "pure" or not key.startswith("Soil")}
+        pictures = (run(f"fields_{name}", entries, ranks=2) / "solution").glob("*_00000.pvtu")
+        found = {picture.name.split("_")[0]: list(data_in_vtk(picture)) for picture in pictures}
+        check(found == wanted, f"{name}: {found}")
+
+
 def fields_in_vtk(results):
     """VTK reads the files for ParaView with units in the names of fields, and names of components; the package strips the units."""
     wanted = {"velocity [m/s]": "X Y Z", "stress [Pa]": "XX XY XZ YX YY YZ ZX ZY ZZ", "displacement [m]": "X Y Z", "mass [kg]": "", "stress_ratio": "",
               "plastic_shear_strain": "", "image_pressure [Pa]": ""}
-    reader = vtkXMLPUnstructuredGridReader()
-    reader.SetFileName(str(results / "solution" / "points_00001.pvtu"))
-    reader.Update()
-    data = reader.GetOutput().GetPointData()
-    found = {data.GetArrayName(i): data.GetArray(i) for i in range(data.GetNumberOfArrays())}
+    found = data_in_vtk(results / "solution" / "points_00001.pvtu")
     check(set(wanted) <= set(found), f"fields {list(found)}")
     for label, components in wanted.items():
         n = found[label].GetNumberOfComponents()

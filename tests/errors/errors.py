@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs the cases of the tables beside this file: wrong input, and what a program must say about it.
+"""Runs the cases of the tables beside this file: wrong input, and what a program must say about it; all in one process (messages.cc).
 
 A table consists of blocks, with the lines of a block indented; base and case are those of tables.py:
 
   base plain: Soil/Region = y < 0.5           entries that cases start from
 
-  file profile.csv                            a file that cases name, each line after "| "
-    | 0, 0.2
+  file profile.csv: x, y | 0, 0.2             a file that cases name; long ones have each line by itself, after "| "
 
-  file other.csv from profile.csv             the same but for the lines of these numbers, of which one may follow the last
-    1| 0, 0.3
+  file other.csv from profile.csv: 1| 0, 0.3  the same but for the lines of these numbers, of which one may follow the last
 
   case cell_size_zero from plain: Mesh/Cell size = 0    the file cell_size_zero.prm: these entries, then the others of the base
     ! subsection Mesh, entry "Cell size" = 0: write a number above 0.
@@ -22,14 +20,12 @@ subsection that the text names, and without a line if the case does not contain 
 """
 
 import argparse
-import concurrent.futures
 import pathlib
 import re
 import shlex
 import shutil
 import subprocess
 import sys
-import tempfile
 
 from tables import blocks, entries, parameter_file
 
@@ -142,46 +138,19 @@ def run_in_process(cases, folder, command):
             yield case.fault([int(word) for word in codes.read_text().split()], got)
 
 
-def run_program(case, folder, programs, launcher):
-    """Runs a case by its program in a copy of a folder; returns its fault."""
-    with tempfile.TemporaryDirectory() as scratch:
-        own = shutil.copytree(folder, pathlib.Path(scratch) / "cases")
-        # mpirun also remarks on exit codes: each rank's standard error goes to a file of its own.
-        command = [*launcher, "sh", "-c", '"$@" 2>../error.$$', "scree", programs[case.program], *case.arguments]
-        code = subprocess.run(command, cwd=own, check=False, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                              stderr=subprocess.DEVNULL).returncode
-        got = b"".join(file.read_bytes() for file in sorted(pathlib.Path(scratch).glob("error.*")))
-    return case.fault([code], got)
-
-
-def path(text):
-    """A path that holds in any folder."""
-    return pathlib.Path(text).resolve()
-
-
 def main():
     """Runs the cases that the command line asks for."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--in-process", metavar="COMMAND", type=shlex.split, help="run all cases by this program of messages.cc, with its launcher")
-    parser.add_argument("--scree", type=path, help="run each case by this program ...")
-    parser.add_argument("--element", type=path, help="... or this one")
-    parser.add_argument("--launcher", type=shlex.split, default=[], help="such as \"mpirun -np 2\"")
-    parser.add_argument("--folder", type=path, required=True, help="where the cases are written and run")
+    parser.add_argument("--command", type=shlex.split, required=True, help="the program of messages.cc, with its launcher")
+    parser.add_argument("--folder", type=lambda text: pathlib.Path(text).resolve(), required=True, help="where the cases are written and run")
     parser.add_argument("--table", type=pathlib.Path, action="append", help="instead of all tables")
     parser.add_argument("name", nargs="*", help="of a case; none: all")
     options = parser.parse_args()
 
     tables = Tables(options.table or sorted(HERE.glob("*.table")))
     cases = [tables.cases[name] for name in options.name] or list(tables.cases.values())
-    folder = options.folder
-    tables.write(folder / "cases")
-    if options.in_process:
-        faults = list(run_in_process(cases, folder, options.in_process))
-    else:
-        programs = {"scree": options.scree, "scree-element": options.element}
-        with concurrent.futures.ThreadPoolExecutor(2) as pool:
-            faults = list(pool.map(lambda case: run_program(case, folder / "cases", programs, options.launcher), cases))
-    faults = [fault for fault in faults if fault]
+    tables.write(options.folder / "cases")
+    faults = list(filter(None, run_in_process(cases, options.folder, options.command)))
     print("\n".join(faults))
     print(f"{len(cases)} cases, {len(faults)} faults")
     sys.exit(1 if faults or not cases else 0)

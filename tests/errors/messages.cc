@@ -11,6 +11,7 @@
 #include <scree/program/command_line.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -18,9 +19,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <set>
-#include <sstream>
 #include <unistd.h>
 
 namespace
@@ -34,26 +33,14 @@ namespace
   };
 
 
-  std::string content(const fs::path &file)
-  {
-    std::ifstream in(file);
-    return { std::istreambuf_iterator<char>(in), {} };
-  }
-
-
   std::vector<Case> listed_cases(const fs::path &list)
   {
     std::vector<Case> cases;
     std::ifstream in(list);
     for (std::string line; std::getline(in, line);)
       {
-        Case one;
-        std::istringstream words(line);
-        std::getline(words, one.name, '\t');
-        std::getline(words, one.program, '\t');
-        for (std::string argument; std::getline(words, argument, '\t');)
-          one.arguments.push_back(argument);
-        cases.push_back(one);
+        const auto words = dealii::Utilities::split_string_list(line, '\t');
+        cases.push_back({ words[0], words[1], { words.begin() + 2, words.end() } });
       }
     return cases;
   }
@@ -132,7 +119,7 @@ namespace
     }
     if (ending.others_may_wait)
       {
-        std::cerr << one.name + " stopped on a rank, others may wait. " + content(error);
+        std::cerr << one.name + " stopped on a rank, others may wait. See " + error.string();
         MPI_Abort(MPI_COMM_WORLD, 1);
       }
     MPI_Comm_free(&communicator);

@@ -43,7 +43,9 @@ def blocks(table):
             if block:
                 yield block
             block = Block(header[1], header[2], header[3] or "", place, [], [])
-            if header[4]:
+            if header[1] == "file" and header[4]:
+                block.lines += [text if block.base else "| " + text for text in header[4].split(" | ")]
+            elif header[4]:
                 block.add(header[4])
         elif line.startswith("  ") and block:
             block.add(line[2:])

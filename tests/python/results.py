@@ -42,10 +42,4 @@ def test_fields():
     raises("pressure", fields.__getitem__, "pressure", kind=KeyError)
 
 
-def test_map_files():
-    pathlib.Path("run/maps").mkdir(parents=True, exist_ok=True)
-    pathlib.Path("run/maps/mass.tif").write_text("no raster", encoding="utf-8")
-    raises("mass.tif: GDAL reads no complete raster", read_raster, "run/maps/mass.tif")
-
-
 run_tests(globals())

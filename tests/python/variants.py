@@ -28,14 +28,17 @@ def test_entries():
 
 
 def test_includes():
-    """Later settings win; a variant holds what its base includes, and finds the files that base and included file name."""
-    write("base/parts/bed.prm", "subsection Bed\n  set Profile = bed.csv\n  set Type = fixed\nend\n")
+    """Later settings win; a variant holds what its base includes, and finds the files that base and included file name; what names no file
+    stays as it is."""
+    write("base/parts/bed.prm", "subsection Bed\n  set Profile = \\\n    bed.csv # corners\n  set Raster = none.asc\n  set Type = fixed\nend\n")
     write("base/parts/bed.csv", "0, 0\n1, 1\n")
     write("base/case.prm", "include parts/bed.prm\nsubsection Bed\n  set Type = friction\nend\n")
-    assert read_entries("base/case.prm") == {"Bed/Profile": "parts/bed.csv", "Bed/Type": "friction"}
-    write_variant("base/case.prm", "variant.prm", {"Bed/Type": "free slip"})
-    assert read_entries("variant.prm") == {"Bed/Profile": "base/parts/bed.csv", "Bed/Type": "free slip"}
-    assert "include" not in read_case("variant.prm")
+    assert read_entries("base/case.prm") == {"Bed/Profile": "parts/bed.csv", "Bed/Raster": "none.asc", "Bed/Type": "friction"}
+    write("new/deep/variant.prm", "")
+    write_variant("base/case.prm", "new/deep/variant.prm", {"Bed/Type": "free slip"})
+    wanted = {"Bed/Profile": "../../base/parts/bed.csv", "Bed/Raster": "none.asc", "Bed/Type": "free slip"}
+    assert read_entries("new/deep/variant.prm") == wanted
+    assert "include" not in read_case("new/deep/variant.prm")
     write("loop.prm", "include loop.prm\n")
     raises("loop", read_case, "loop.prm")
 

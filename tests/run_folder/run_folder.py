@@ -5,8 +5,6 @@ Each test is a function below; it works in the current folder. LAUNCHER is "mpir
 """
 
 import atexit
-import csv
-import hashlib
 import os
 import pathlib
 import random
@@ -18,9 +16,15 @@ import subprocess
 import sys
 import time
 
+import numpy as np
+
+from scree.results import read_table
 from scree.variants import set_entries
 
-SCREE, LAUNCHER = sys.argv[1], sys.argv[2].split()
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "cases"))
+from case_tools import LAUNCHER, SCREE, check, log_of, rows_of  # pylint: disable=wrong-import-position
+from compare_statistics import compare  # pylint: disable=wrong-import-position
+
 # A small dry column with many rows: what happens to the run folder is tested with it, not what it computes.
 CASE = set_entries("", {
     "End time": 0.1, "Output directory": "results", "Mesh/Upper corner": "1.5, 0.8", "Mesh/Cell size": 0.1, "Transfer/Method": "FLIP",
@@ -35,13 +39,10 @@ STOPPED = 3  # the exit code
 
 
 def write_case(name, entries=(), text=CASE):
-    """A variant of the case: each of `entries`, such as "End time = 1", replaces a line or is added to subsection Output."""
-    for entry in entries:
-        key = entry.split("=", 1)[0].strip()
-        text, n = re.subn(rf"set {key} *=.*", f"set {entry}", text)
-        if n == 0:
-            text = text.replace("subsection Output\n", f"subsection Output\n  set {entry}\n")
-    pathlib.Path(name).write_text(text, encoding="utf-8")
+    """A variant of the case with `entries`, such as "End time = 1"; others than this one are of subsection Output."""
+    pairs = (entry.split(" = ") for entry in entries)
+    text = set_entries(text, {key if key == "End time" else "Output/" + key: value for key, value in pairs})
+    pathlib.Path(name).write_text(text + "\n", encoding="utf-8")
 
 
 def start(case, *options, ranks=1, **how):
@@ -62,11 +63,6 @@ def run(case, *options, wanted=0, **how):
     return end(start(case, *options, **how), wanted, f"{case} {' '.join(options)}")
 
 
-def check(fact, text):
-    if not fact:
-        sys.exit("FAILED: " + text)
-
-
 def content():
     return STATISTICS.read_bytes() if STATISTICS.exists() else b""
 
@@ -77,13 +73,10 @@ def csv_content():
 
 def check_csv():
     """statistics.csv has the rows of statistics: as many columns, and the same numbers."""
-    rows = [[float(word) for word in line.split()] for line in content().splitlines() if line[:1] != b"#"]
-    with open(CSV, encoding="utf-8", newline="") as file:
-        found = list(csv.DictReader(file))
-    check(len(found) == len(rows), f"statistics.csv has {len(found)} rows, not {len(rows)}")
-    for row, other in zip(rows, found):
-        values = [float(value) for value in other.values()]
-        check(len(values) == len(row) and all(abs(a - b) <= 1e-11 * abs(a) for a, b in zip(row, values)), f"statistics.csv: {values}, not {row}")
+    rows = np.transpose(list(read_table(STATISTICS).values()))
+    found = np.array([list(row.values()) for row in rows_of(CSV)], float)
+    check(found.shape == rows.shape, f"statistics.csv has {found.shape} rows and columns, not {rows.shape}")
+    check(np.allclose(found, rows, rtol=1e-11, atol=0), f"statistics.csv: {found}, not {rows}")
 
 
 def n_pictures():
@@ -102,7 +95,7 @@ def n_rows():
 
 
 def log():
-    return (RESULTS / "log.txt").read_text(encoding="utf-8")
+    return log_of(RESULTS)
 
 
 def wait_for(fact, process=None):
@@ -203,8 +196,7 @@ def kill_two_ranks():
         n_pictures()
     run("case.prm", "--resume", ranks=2)
     check(n_pictures() == 6, f"{n_pictures()} pictures, not 6")
-    compare = pathlib.Path(__file__).parent.parent / "cases" / "compare_statistics.py"
-    check(subprocess.call([sys.executable, compare, "whole", STATISTICS, "1e-9"]) == 0, "the rows differ")
+    compare(("whole", STATISTICS), 1e-9)
 
 
 def stop_and_go_on(case, wanted, ask, reason, ranks=1):
@@ -299,11 +291,8 @@ def wall_time():
 
 
 def fingerprints():
-    return {
-        str(path): hashlib.sha256(path.read_bytes()).hexdigest()
-        for path in sorted(RESULTS.rglob("*"))
-        if path.is_file()
-    }
+    """The contents of all files."""
+    return {str(path): path.read_bytes() for path in RESULTS.rglob("*") if path.is_file()}
 
 
 def failed_input():
@@ -457,8 +446,7 @@ def lost_rows():
     run("case.prm", "--resume")
     check("bytes that it had at the checkpoint: rows are missing there." in log(), log())
     check(content().endswith(wanted.splitlines(keepends=True)[-1]), "the rows do not go on")
-    rows = [line.split() for line in content().splitlines() if not line.startswith(b"#")]
-    check(all(len(row) == len(rows[0]) for row in rows), "a row was cut")
+    check(len({len(line.split()) for line in content().splitlines() if line[:1] != b"#"}) == 1, "a row was cut")
     check("points_00004" in series.read_text(encoding="utf-8"), "a picture is missing on its list")
     check("points_00005" not in series.read_text(encoding="utf-8"), "a picture of after the checkpoint is listed")
 

@@ -7,6 +7,7 @@
 #include <scree/bodies/phases.h>
 #include <scree/materials/table.h>
 #include <scree/seeding/seeding.h>
+#include <scree/transfer/water_transfer.h>
 
 #include <list>
 
@@ -69,6 +70,58 @@ struct ElasticSoil : SoilBody<dim>
     if (region != "none")
       seed_region(*this, grid, region, points_per_cell, velocity);
   }
+};
+
+
+/// Water up to y = 0.44 m in a box of 6 cells an axis, with elastic soil of porosity 0.4 where an expression says, and
+/// their nodes.
+template <int dim>
+struct WetScene
+{
+  /// @param points_of_soil in a cell, along each axis
+  WetScene(const std::string &basis,
+           const std::string &method,
+           const std::string &soil_region,
+           const unsigned int points_of_soil)
+      : grid(grid_box<dim>(0., 0.6, 0.1, basis), MPI_COMM_WORLD)
+      , soil(grid, soil_region, points_of_soil, 0.4)
+      , water(1000., true, grid.triangulation(), grid.mapping())
+      , mixture(grid, points_of_soil)
+  {
+    water_parameters.region          = "y < 0.44";
+    water_parameters.points_per_cell = 3;
+    const SoilRegion region{ "Soil", soil_region == "none" ? "0" : soil_region, 0.4, soil.density };
+    seed_water(water, water_parameters, { region }, { grid.triangulation(), grid.cell_size() });
+    transfer_parameters.method   = method;
+    transfer_parameters.pic_rate = 0;
+    soil.drag.emplace(water_parameters, 0.4);
+    transfer = std::make_unique<WaterTransfer<dim>>(grid, transfer_parameters, water_parameters);
+  }
+
+  /// Points to nodes, summed over ranks.
+  void gather()
+  {
+    transfer->soil_to_grid(soil, mixture);
+    transfer->to_grid(water, mixture, water_field, excess, pores);
+    for (const auto &cell : mixture.cells())
+      {
+        soil_field.activate_cell(cell.cell);
+        pores.activate_cell(cell.cell);
+        water_field.activate_cell(cell.cell);
+      }
+    pores.add_contributions();
+    water_field.add_contributions();
+  }
+
+  const BackgroundGrid<dim> grid;
+  ElasticSoil<dim> soil;
+  WaterPhase<dim> water;
+  WaterParameters water_parameters;
+  TransferParameters transfer_parameters;
+  std::unique_ptr<WaterTransfer<dim>> transfer;
+  Mixture<dim> mixture;
+  PoreField<dim> pores{ grid };
+  NodalField<dim> soil_field{ grid }, water_field{ grid }, excess{ grid };
 };
 
 

@@ -4,6 +4,7 @@
 #define scree_tests_unit_test_h
 
 #include <scree/mesh/background_grid.h>
+#include <scree/particles/point_set.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
@@ -81,6 +82,17 @@ inline double max_of_ranks(const double value)
 }
 
 
+/// The place whose coordinate along axis `a` is `coordinate(a)`.
+template <int dim, typename Coordinate>
+Point<dim> point_of(const Coordinate &coordinate)
+{
+  Point<dim> result;
+  for (unsigned int a = 0; a < dim; ++a)
+    result[a] = coordinate(a);
+  return result;
+}
+
+
 /// The same numbers on every platform, which the distributions of the standard library do not promise.
 class RandomNumbers
 {
@@ -99,10 +111,7 @@ public:
   template <int dim>
   Point<dim> point(const double low, const double high)
   {
-    Point<dim> result;
-    for (unsigned int a = 0; a < dim; ++a)
-      result[a] = uniform(low, high);
-    return result;
+    return point_of<dim>([&](const unsigned int) { return uniform(low, high); });
   }
 
 private:
@@ -138,29 +147,45 @@ void set_vector(double *values, const unsigned int first, const Tensor<1, dim> &
 
 
 /// Sum of `coefficient(node)` times the shape functions at a place of a cell, and its gradient.
-template <int dim, int n, typename Coefficient>
+template <int dim, typename Coefficient>
 std::pair<double, Tensor<1, dim>>
 evaluate(const BackgroundGrid<dim> &grid, const unsigned int cell, const Point<dim> &x, const Coefficient &coefficient)
 {
-  const CellBasis<dim, n> basis(x, grid.open_knots(cell));
-  std::pair<double, Tensor<1, dim>> result(0., Tensor<1, dim>());
-  for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; ++i)
-    {
-      const double c = coefficient(grid.nodes(cell)[i]);
-      double product = c;
-      Tensor<1, dim> slopes;
-      for (unsigned int a = 0; a < dim; ++a)
-        slopes[a] = c / grid.cell_size();
-      for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
-        {
-          product *= basis.value[a][rest % n];
-          for (unsigned int b = 0; b < dim; ++b)
-            slopes[b] *= a == b ? basis.derivative[a][rest % n] : basis.value[a][rest % n];
-        }
-      result.first += product;
-      result.second += slopes;
-    }
-  return result;
+  const auto sum = [&](const auto &basis) {
+    const unsigned int n = grid.n_nodes_1d();
+    std::pair<double, Tensor<1, dim>> result(0., Tensor<1, dim>());
+    for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
+      {
+        const double c        = coefficient(grid.nodes(cell)[i]);
+        double product        = c;
+        Tensor<1, dim> slopes = point_of<dim>([&](const unsigned int) { return c / grid.cell_size(); });
+        for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
+          {
+            product *= basis.value[a][rest % n];
+            for (unsigned int b = 0; b < dim; ++b)
+              slopes[b] *= a == b ? basis.derivative[a][rest % n] : basis.value[a][rest % n];
+          }
+        result.first += product;
+        result.second += slopes;
+      }
+    return result;
+  };
+  return grid.n_nodes_1d() == 2 ? sum(CellBasis<dim, 2>(x, grid.open_knots(cell)))
+                                : sum(CellBasis<dim, 3>(x, grid.open_knots(cell)));
+}
+
+
+/// Adds a point, m, on the rank that has its cell.
+template <int dim>
+void add_point(PointSet<dim> &points,
+               const BackgroundGrid<dim> &grid,
+               const Point<dim> &x,
+               const std::vector<double> &properties)
+{
+  for (const auto &cell : grid.triangulation().active_cell_iterators())
+    if (cell->is_locally_owned() && cell->bounding_box().point_inside(x))
+      points.add(cell, x, 0, properties);
+  points.finish_adding();
 }
 
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Distances and normals of rigid ground: of a profile and of a raster of heights against the nearest of many places on
 // it, of an expression that is no distance against the closed form; where the ground is missing; and as the mesh
 // samples an arc, at rest and moved; from places one by one and in batches, of ground in parts, too.
@@ -137,9 +136,7 @@ void test_expression()
 template <int dim>
 void test_samples()
 {
-  Point<dim> centre;
-  for (unsigned int a = 0; a < dim; ++a)
-    centre[a] = a + 1 == dim ? 2.3 : 0.8;
+  const auto centre = point_of<dim>([](const unsigned int a) { return a + 1 == dim ? 2.3 : 0.8; });
   const auto errors = [&](const double cell_size) {
     const BackgroundGrid<dim> grid(grid_box<dim>(0., 1.6, cell_size), MPI_COMM_WORLD);
     const ExpressionSurface<dim> bowl("",

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Oblique ground in a wet scene and a point in each of its cells: how fast what is at a facet may approach it in a
 // step, by the distance of the point from the facet; that slow motion and touching points may not; in cells without a
 // point a cell's width counts.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Rasters that are written and read again, in each format: values, place, missing values and coordinate system. Names
 // of one system differ by program.
 #include "../test.h"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Walls of a wet scene and what falls on them: which walls act where a point has reached one, two or no wall; that they
 // act on what is slow; the speed at which a gap closes within a step; a full cell has no gap; a gate holds whatever is
 // near; afterwards all walls act again; points just outside come back, through closed faces only.
@@ -19,15 +18,6 @@ struct Box
   static constexpr double h = 0.125, reach = 0.3 * h;
 
   Box()
-      : grid(grid_box<2>(0., 1., h), MPI_COMM_WORLD)
-      , walls(grid, boundaries())
-      , water_walls(grid, WaterBoundaryParameters())
-      , constraints(grid, walls, &water_walls)
-      , gaps(grid, constraints)
-      , points(grid.triangulation(), grid.mapping(), 1)
-      , soil(grid)
-      , water(grid)
-      , forcing(grid, { 0., -10. }, BodyForceParameters())
   {
     forcing.set_start();
     gaps.add({ &soil, &water });
@@ -45,10 +35,7 @@ struct Box
   /// of water.
   void add(const Point<2> &x, const Tensor<1, 2> &velocity)
   {
-    for (const auto &cell : grid.triangulation().active_cell_iterators())
-      if (cell->is_locally_owned() && cell->bounding_box().point_inside(x))
-        points.add(cell, x, 0, { 0. });
-    points.finish_adding();
+    add_point(points, grid, x, { 0. });
     for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
       {
         soil[node][NodalField<2>::mass]  = 3.;
@@ -81,14 +68,13 @@ struct Box
     return { sum_of_ranks(n), sum_of_ranks(sum) };
   }
 
-  BackgroundGrid<2> grid;
-  const BoundaryConditions<2> walls;
-  const BoundaryConditions<2> water_walls;
-  Constraints<2> constraints;
-  WallGaps<2> gaps;
-  PointSet<2> points;
-  NodalField<2> soil, water;
-  BodyForces<2> forcing;
+  BackgroundGrid<2> grid{ grid_box<2>(0., 1., h), MPI_COMM_WORLD };
+  const BoundaryConditions<2> walls{ grid, boundaries() }, water_walls{ grid, WaterBoundaryParameters() };
+  Constraints<2> constraints{ grid, walls, &water_walls };
+  WallGaps<2> gaps{ grid, constraints };
+  PointSet<2> points{ grid.triangulation(), grid.mapping(), 1 };
+  NodalField<2> soil{ grid }, water{ grid };
+  BodyForces<2> forcing{ grid, { 0., -10. }, BodyForceParameters() };
 };
 
 const UnitTest registered("wall_gaps", [] {
@@ -170,10 +156,7 @@ const UnitTest registered("wall_gaps", [] {
                              const Tensor<1, 2> &impulse) {
     Box box;
     WaterPhase<2> phase(1000., false, box.grid.triangulation(), box.grid.mapping());
-    for (const auto &cell : box.grid.triangulation().active_cell_iterators())
-      if (cell->is_locally_owned() && cell->bounding_box().point_inside(Point<2>(middle, 0.5 * h)))
-        phase.points().add(cell, Point<2>(middle, 0.5 * h), 0, std::vector<double>(phase.layout.n_properties(), 0.));
-    phase.points().finish_adding();
+    add_point(phase.points(), box.grid, { middle, 0.5 * h }, std::vector<double>(phase.layout.n_properties(), 0.));
     Budget<2> balance;
     double error = 0, loss = 0;
     for_each_point(phase.points(), [&](const auto &point) {

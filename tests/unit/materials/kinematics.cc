@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // What all laws share: principal values, axes and logarithmic strain of b = I + small, also where principal values
-// coincide; energy is the potential of the stress; plane strain is three dimensions without the third; the stress turns
-// with the observer; motions and starts that cannot be are refused.
+// coincide; energy is the potential of the stress; the stress turns with the observer; motions and starts that cannot
+// be are refused.
 #include "one_point.h"
 
 #include <scree/materials/laws/mohr_coulomb.h>
@@ -19,7 +18,6 @@ using Physics::Transformations::Rotations::rotation_matrix_3d;
 template <int dim>
 void test_principal_values(RandomNumbers &random)
 {
-  double strain_error = 0, composition_error = 0;
   for (unsigned int i = 0; i < 200000; ++i)
     {
       const double size = random.log_uniform(1e-12, 1e-1);
@@ -45,20 +43,17 @@ void test_principal_values(RandomNumbers &random)
       double again[6];
       left_cauchy_green_of(frame, found, again);
       for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
-        composition_error = std::max(composition_error, std::abs(again[c] - components[c]));
+        expect(again[c], components[c], 1e-14, "composition");
       std::sort(found.begin(), found.end());
       std::sort(strain.begin(), strain.end());
-      strain_error = std::max(strain_error, largest_difference(found, strain));
+      expect(largest_difference(found, strain), 0, 5e-15, "error of the logarithmic strain");
     }
-  require(strain_error < 5e-15, "Logarithmic strain is wrong by " + std::to_string(strain_error * 1e15) + "e-15.");
-  require(composition_error < 1e-14, "Composition is wrong by " + std::to_string(composition_error * 1e15) + "e-15.");
 }
 
 
 template <typename Law>
 void test_potential(const std::string &name, const Law &law, const PrincipalValues &mean, RandomNumbers &random)
 {
-  double largest_error = 0;
   for (unsigned int i = 0; i < 1000; ++i)
     {
       PrincipalValues strain = mean, stress;
@@ -70,36 +65,8 @@ void test_potential(const std::string &name, const Law &law, const PrincipalValu
       require(!return_point(law, same_strain, internal, 1, stress, report), "The state should be elastic.");
       const double scale = std::abs(stress[0]) + std::abs(stress[1]) + std::abs(stress[2]);
       for (unsigned int k = 0; k < 3; ++k)
-        largest_error = std::max(largest_error, std::abs(energy_slope(law, strain, k, 1e-6) - stress[k]) / scale);
+        expect((energy_slope(law, strain, k, 1e-6) - stress[k]) / scale, 0, 1e-6, name + ": slope less stress");
     }
-  expect(largest_error, 0, 1e-6, name + ": slope of the energy less the stress");
-}
-
-
-void test_plane_strain(const std::string &law, const bool has_substeps, RandomNumbers &random)
-{
-  PointOfMaterial<2> plane(law, -1e4, -8e3);
-  PointOfMaterial<3> solid(law, -1e4, -8e3);
-  double largest_error = 0;
-  for (unsigned int step = 0; step < 1000; ++step)
-    {
-      Tensor<2, 2> in_plane;
-      Tensor<2, 3> full;
-      for (unsigned int i = 0; i < 2; ++i)
-        for (unsigned int j = 0; j < 2; ++j)
-          full[i][j] = in_plane[i][j] = (i == j ? 1 : 0) + 3e-3 * random.uniform(-1, 1) + (i < j ? 1e-3 : 0);
-      full[2][2] = 1 + 1e-3 * random.uniform(-1, 1);
-      plane.update(in_plane, full[2][2]);
-      solid.update(full);
-      double scale = 1;
-      for (unsigned int c = 0; c < 4; ++c)
-        scale = std::max(scale, std::abs(plane.stress[c]));
-      for (unsigned int c = 0; c < 4; ++c)
-        largest_error = std::max(largest_error, std::abs(plane.stress[c] - solid.stress[c]) / scale);
-    }
-  require(plane.report.n_substeps == solid.report.n_substeps, law + ": sub-steps differ");
-  require((plane.report.n_substeps > 1000) == has_substeps, law + ": sub-steps");
-  expect(largest_error, 0, 1e-8, law + ": plane strain less 3D");
 }
 
 
@@ -112,7 +79,6 @@ void test_objectivity(const std::string &law,
 {
   PointOfMaterial<3> still(law, -1e4, -7e3), turning(law, -1e4, -7e3);
   Tensor<2, 3> before = unit_symmetric_tensor<3>();
-  double largest      = 0;
   for (unsigned int step = 1; step <= 500; ++step)
     {
       Tensor<2, 3> increment = unit_symmetric_tensor<3>();
@@ -125,9 +91,8 @@ void test_objectivity(const std::string &law,
       before                    = now;
       const Tensor<2, 3> wanted = now * SymmetricTensor<2, 3>(still.stress) * transpose(now);
       const Tensor<2, 3> found  = SymmetricTensor<2, 3>(turning.stress);
-      largest                   = std::max(largest, (found - wanted).norm() / wanted.norm());
+      expect((found - wanted).norm() / wanted.norm(), 0, bound, law + ": difference of the observers' stresses");
     }
-  expect(largest, 0, bound, law + ": difference of the observers' stresses");
   expect(still.report.n_substeps + turning.report.n_substeps, n_substeps, 0, law + ": number of sub-steps");
 }
 
@@ -169,7 +134,6 @@ const UnitTest registered("kinematics", [] {
 
   for (const std::string law : { "linear elastic", "Mohr-Coulomb", "Nor-Sand" })
     {
-      test_plane_strain(law, law == "Nor-Sand", random);
       test_objectivity(law, 7e-4, 2e-4, 1000, 1e-9); // one sub-step an update
       if (law != "Nor-Sand")
         test_objectivity(law, 0.1, 2e-4, 1000, 1e-9);

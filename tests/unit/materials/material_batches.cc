@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Laws in batches against the same laws point by point, at random and odd states; what comes out of a point is the same
 // to the last bit wherever it stands among the others.
 #include "one_point.h"
@@ -7,7 +6,7 @@
 #include <scree/materials/laws/nor_sand.h>
 #include <scree/materials/laws/tresca.h>
 
-#include <deal.II/base/symmetric_tensor.h>
+#include <numeric>
 
 namespace test_material_batches
 {
@@ -81,23 +80,17 @@ void set_random(States<dim> &states, const Material<dim> &material, const Kind &
 {
   for (unsigned int p = 0; p < states.increment.size(); ++p)
     {
-      double deviator[6], square = 0, stress[6];
+      SymmetricTensor<2, 3> stress;
       for (unsigned int c = 0; c < states.n_components; ++c)
-        deviator[c] = random.uniform(-1, 1);
-      const double mean = (deviator[0] + deviator[1] + deviator[2]) / 3;
-      for (unsigned int c = 0; c < states.n_components; ++c)
-        {
-          deviator[c] -= c < 3 ? mean : 0;
-          square += (c < 3 ? 1. : 2.) * deviator[c] * deviator[c];
-        }
+        stress.access_raw_entry(c) = random.uniform(-1, 1);
       const double pressure = random.log_uniform(kind.smallest_pressure, kind.largest_pressure);
       const double q        = pressure * random.uniform(0, kind.largest_ratio);
-      for (unsigned int c = 0; c < states.n_components; ++c)
-        stress[c] = (c < 3 ? -pressure : 0.) + deviator[c] * q / std::sqrt(1.5 * square);
+      stress *= q / (std::sqrt(1.5) * deviator(stress).norm());
+      stress         = deviator(stress) - pressure * unit_symmetric_tensor<3>();
       double *record = states.record(p), *internal = record + 2 * states.n_components;
       if (kind.set_internal)
         kind.set_internal(internal, random);
-      material.initialise(stress, record, record + states.n_components, internal);
+      material.initialise(stress.begin_raw(), record, record + states.n_components, internal);
       internal[0] *= random.uniform(1, kind.overconsolidation);
       if (kind.set_internal)
         kind.set_internal(internal, random);
@@ -164,8 +157,7 @@ void test_places(const Material<dim> &material,
 {
   const unsigned int n = std::min<unsigned int>(start.increment.size(), 4000);
   std::vector<unsigned int> slots(n);
-  for (unsigned int p = 0; p < n; ++p)
-    slots[p] = p;
+  std::iota(slots.begin(), slots.end(), 0);
   for (unsigned int p = 0; p < n; ++p)
     std::swap(slots[p], slots[static_cast<unsigned int>(random.uniform(0, n))]);
   States<dim> states = start;
@@ -186,8 +178,7 @@ void test(const Law &law, const Kind &kind, const unsigned int n, const double b
   States<dim> start(n);
   set_random(start, one_by_one, kind, random);
   std::vector<unsigned int> slots(n);
-  for (unsigned int p = 0; p < n; ++p)
-    slots[p] = p;
+  std::iota(slots.begin(), slots.end(), 0);
   States<dim> one = start, batch = start;
   compare_reports(one.update(one_by_one, slots, 0, n), batch.update(in_batches, slots, 0, n), name);
   const double error = difference(one, batch);

@@ -9,6 +9,8 @@
 #include <scree/materials/laws/tresca.h>
 #include <scree/materials/table.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <functional>
 
 namespace scree
@@ -166,24 +168,16 @@ private:
                  UpdateReport &report) const
   {
     const double stretch = dim == 2 ? motion.out_of_plane_stretch[p] : 1, J = motion.volume_ratio[p];
-    dealii::Tensor<2, dim> change = motion.deformation_increment_of(p); // dF - I
+    const Tensor<2, dim> one = unit_symmetric_tensor<dim>(), change = motion.deformation_increment_of(p) - one;
     double largest_change = std::abs(stretch - 1), dissipation = 0;
-    for (unsigned int i = 0; i < dim; ++i)
-      {
-        change[i][i] -= 1;
-        for (unsigned int j = 0; j < dim; ++j)
-          largest_change = std::max(largest_change, std::abs(change[i][j]));
-      }
+    for (unsigned int i = 0; i < dim * dim; ++i)
+      largest_change = std::max(largest_change, std::abs(change[i / dim][i % dim]));
     const auto n           = static_cast<unsigned int>(std::max(1., std::ceil(largest_change / law.substep_strain)));
     const auto n_separated = report.n_separated; // A point counts once, by its state in the end.
     for (unsigned int k = 0; k < n; ++k)
       {
-        dealii::Tensor<2, dim> before = (static_cast<double>(k) / n) * change; // F_{k-1}
-        for (unsigned int i = 0; i < dim; ++i)
-          before[i][i] += 1;
-        dealii::Tensor<2, dim> f = (1. / n) * change * invert(before);
-        for (unsigned int i = 0; i < dim; ++i)
-          f[i][i] += 1;
+        const Tensor<2, dim> before = one + (static_cast<double>(k) / n) * change; // F_{k-1}
+        const Tensor<2, dim> f      = one + (1. / n) * change * invert(before);
         const double stretch_change = (stretch - 1) / n;
         double trial[n_symmetric_components<dim>];
         trial_left_cauchy_green<dim>(&f[0][0], 1 + stretch_change / (1 + k * stretch_change), b, trial);
@@ -270,8 +264,7 @@ void random_returns(const std::string &name,
                     const Check &check)
 {
   UpdateReport report;
-  double smallest_dissipation = 0;
-  unsigned int n              = 0;
+  unsigned int n = 0;
   for (unsigned int i = 0; i < 1000000; ++i)
     {
       RandomReturn point;
@@ -283,10 +276,9 @@ void random_returns(const std::string &name,
       point.is_at_vertex = report.n_vertices + report.n_separated > n_before;
       n += point.is_plastic;
       const double dissipation = energy_taken(point.trial, point.strain, point.stress).first;
-      smallest_dissipation     = std::min(smallest_dissipation, dissipation / (point.scale * point.size));
+      require(dissipation / (point.scale * point.size) >= -1e-12, name + ": energy made");
       check(point);
     }
-  expect(smallest_dissipation, 0, 1e-12, name + ": energy made");
   require(report.n_unresolved == 0, name + ": unresolved");
   require(n > n_plastic, name + ": plastic states were not visited");
 }

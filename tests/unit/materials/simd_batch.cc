@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Functions of a batch: to rounding, lane by lane whatever the other lanes hold, and as the C library's at odd input.
 #include "../test.h"
 
-#include <scree/simd/records.h>
+#include <scree/simd/batch.h>
 
 namespace test_simd_batch
 {
@@ -63,47 +62,6 @@ void test_odd(const std::string &name,
 }
 
 
-template <unsigned int n>
-void test_records(RandomNumbers &random)
-{
-  constexpr unsigned int stride = 17;
-  std::vector<double> in(batch_size * stride), out(in.size(), -1.);
-  for (double &value : in)
-    value = random.uniform(-1, 1);
-  RecordPointers<const double> from;
-  RecordPointers<double> to;
-  for (unsigned int l = 0; l < batch_size; ++l)
-    {
-      from[l] = &in[(batch_size - 1 - l) * stride];
-      to[l]   = &out[l * stride];
-    }
-  Batch batches[n];
-  simd::load_records<n>(from, batches);
-  simd::store_records<n>(batches, to);
-  for (unsigned int l = 0; l < batch_size; ++l)
-    for (unsigned int c = 0; c < stride; ++c)
-      {
-        require(c >= n || batches[c][l] == from[l][c], "a record is read wrongly");
-        require(to[l][c] == (c < n ? from[l][c] : -1.), "a record is written wrongly");
-      }
-}
-
-
-void test_masks()
-{
-  Batch a, b = simd::broadcast<Batch>(0.5);
-  for (unsigned int l = 0; l < batch_size; ++l)
-    a[l] = l % 2 == 0 ? -1. : 1.;
-  const simd::Mask<Batch> negative = a < 0.;
-  require(simd::bits_of(negative) == (0x55u & ((1u << batch_size) - 1)), "bits of a mask");
-  require(simd::any(negative) && !simd::any(negative & !negative), "any lane of a mask");
-  require(simd::sum_of_lanes<Batch>(simd::select<Batch>(negative, a, b)) == -0.25 * batch_size, "selected lanes");
-  require(simd::largest_lane<Batch>(simd::abs<Batch>(a)) == 1. && simd::max<Batch>(a, b)[0] == 0.5 &&
-              simd::min<Batch>(a, b)[1] == 0.5 && simd::sqrt<Batch>(b)[batch_size - 1] == std::sqrt(0.5),
-          "functions of lanes");
-}
-
-
 template <typename Number>
 struct OfNumbers
 {
@@ -151,16 +109,6 @@ void test_pairs(RandomNumbers &random)
         }
       require(simd::bits_of(of_two.mask) == bits && simd::any(of_two.mask) == (bits != 0), "mask of a pair");
     }
-
-  unsigned int next = 0;
-  for (unsigned int size = 0; size <= 4 * batch_size + 1; ++size, next = 0)
-    {
-      for_each_group<2 * batch_size>(size, [&](const auto &places, const unsigned int n) {
-        for (unsigned int l = 0; l < 2 * batch_size; ++l)
-          require(places[l] == (l < n ? next++ : size - 1), "places of a pair");
-      });
-      require(next == size, "a place is left out");
-    }
 }
 
 
@@ -196,14 +144,6 @@ const UnitTest registered("simd_batch", [] {
            { 0., -0., -1., 5e-324, 1e-310, 2.2e-308, infinity, -infinity, nan });
   test_odd("cube root", cube_root, [](const double x) { return std::cbrt(x); }, 1.01, { 0., -1., 1e-310, 1e300, nan });
 
-  test_records<1>(random);
-  test_records<2>(random);
-  test_records<3>(random);
-  test_records<4>(random);
-  test_records<6>(random);
-  test_records<8>(random);
-  test_records<12>(random);
-  test_masks();
   test_pairs(random);
 });
 } // namespace test_simd_batch

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // What rigid ground leaves open of the cells: volume, moments of third degree, hat functions and the ground's own area
 // and normal, of planes at any angle and place to rounding, of a circle and a sphere to second order; ground on cells'
 // faces; the mass of bodies that are seeded on planes.
@@ -10,6 +9,7 @@
 #include <scree/particles/region.h>
 
 #include <deal.II/base/geometry_info.h>
+#include <deal.II/base/quadrature_lib.h>
 
 #include <numeric>
 
@@ -47,35 +47,20 @@ template <int dim>
 double
 moment(const BackgroundGrid<dim> &grid, const CutCells<dim> &cells, const LevelSet<dim> &ground, const unsigned int p)
 {
-  const auto points  = CubicWeights<dim>::points();
+  const QGauss<dim> whole(4); // also the places of the weights of cut cells
   const double width = grid.cell_size(), volume = Utilities::fixed_power<dim>(width);
-  CutCell<dim> whole;
-  whole.weights.fill(0.);
-  for (unsigned int q = 0; q < CubicWeights<dim>::n_points; ++q)
-    {
-      constexpr double gauss[4] = {
-        0.173927422568726928687, 0.326072577431273071313, 0.326072577431273071313, 0.173927422568726928687
-      };
-      whole.weights[q] = 1.;
-      for (unsigned int a = 0, rest = q; a < dim; ++a, rest /= 4)
-        whole.weights[q] *= gauss[rest % 4];
-    }
   double sum = 0;
   for (const auto &cell : grid.fine_cells().cells())
     {
       const CutCell<dim> *cut = cells.find(cell.index);
       const Point<dim> lower  = lower_corner(grid, cell.index);
-      Point<dim> middle       = lower;
-      for (unsigned int a = 0; a < dim; ++a)
-        middle[a] += width / 2;
-      if (cut == nullptr && !ground.is_open(middle))
+      if (cut == nullptr && !ground.is_open(point_of<dim>([&](const unsigned int a) { return lower[a] + width / 2; })))
         continue;
-      const CutCell<dim> &used = cut ? *cut : whole;
-      for (unsigned int q = 0; q < CubicWeights<dim>::n_points; ++q)
+      for (unsigned int q = 0; q < whole.size(); ++q)
         {
-          double value = volume * used.weights[q];
-          for (unsigned int a = 0, rest = q; a < dim; ++a, rest /= 4)
-            value *= std::pow(lower[a] + width * points[rest % 4], p);
+          double value = volume * (cut ? cut->weights[q] : whole.weight(q));
+          for (unsigned int a = 0; a < dim; ++a)
+            value *= std::pow(lower[a] + width * whole.point(q)[a], p);
           sum += value;
         }
     }

@@ -27,9 +27,7 @@ Blocks blocks_of_cubes(const BackgroundGrid<dim> &grid, const double place)
   for (const double lower : { -1., place })
     for (unsigned int i = 0; i < unsigned(Utilities::pow(4, dim)); ++i)
       {
-        Point<dim> x;
-        for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= 4)
-          x[a] = lower + (rest % 4 + 0.5) * width;
+        const auto x = point_of<dim>([&](const unsigned int a) { return lower + ((i >> 2 * a) % 4 + 0.5) * width; });
         grid.append_blocks(x, Tensor<1, dim>(), blocks);
       }
   make_unique(blocks);
@@ -40,15 +38,13 @@ Blocks blocks_of_cubes(const BackgroundGrid<dim> &grid, const double place)
 template <int dim>
 double linear_error(const BackgroundGrid<dim> &grid)
 {
-  const auto value = [](const Point<dim> &x) { return x[0] + 2. * x[1] + 3. * x[dim - 1]; };
-  double error     = 0;
-  Point<dim> middle;
-  for (unsigned int a = 0; a < dim; ++a)
-    middle[a] = 0.5;
+  const auto value  = [](const Point<dim> &x) { return x[0] + 2. * x[1] + 3. * x[dim - 1]; };
+  const auto middle = point_of<dim>([](const unsigned int) { return 0.5; });
+  double error      = 0;
   for (const auto &cell : grid.fine_cells().cells())
     if (grid.fine_cells().is_owned(cell))
       {
-        const double sum   = evaluate<dim, 3>(grid, cell.index, middle, [&](const unsigned int node) {
+        const double sum   = evaluate<dim>(grid, cell.index, middle, [&](const unsigned int node) {
                              return value(grid.node_position(node));
                            }).first;
         const Point<dim> x = grid.fine_cells().box().corner(cell.place) + width * (middle - Point<dim>());

@@ -45,12 +45,7 @@ void test(const std::string &name, const std::string &expression, const int n_ce
         block[a] = rest % 20;
       bool is_occupied = false;
       for (unsigned int v = 0; v < (1 << dim) && !is_occupied; ++v)
-        {
-          Point<dim> corner;
-          for (unsigned int a = 0; a < dim; ++a)
-            corner[a] = 2 * block[a] + (v >> a & 1);
-          is_occupied = in_cell(corner);
-        }
+        is_occupied = in_cell(point_of<dim>([&](const unsigned int a) { return 2 * block[a] + (v >> a & 1); }));
       if (is_occupied)
         wanted.push_back(curve_number<dim>(block));
     }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Walls: what each does to the velocity of a node, of soil and of water; walls oblique to the axes and Coulomb's law; a
 // gate.
 #include "../test.h"

@@ -1,63 +1,30 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Divergence and force of the pressure, for scattered points of soil and water whose surface lies
 // inside cells, for every basis: they are transposes; uniform flow and motion as a rigid body have no divergence;
 // forces add up to 0; the filled part is a half plane's where the depth is linear; the matrix is symmetric and does not
 // gain: p.(B v) <= 0 after the correction by its solution.
 #include "../soil.h"
 
-
 #include <scree/pressure/schur_operator.h>
-#include <scree/transfer/water_transfer.h>
 
 namespace test_pressure_pair
 {
 template <int dim>
-class Scene
+class Scene : public WetScene<dim>
 {
 public:
+  using WetScene<dim>::grid, WetScene<dim>::mixture, WetScene<dim>::pores, WetScene<dim>::soil_field,
+      WetScene<dim>::water_field;
+
   explicit Scene(const std::string &basis)
-      : grid(grid_box<dim>(0., 0.6, 0.1, basis), MPI_COMM_WORLD)
-      , corners(numbered(grid))
-      , soil(grid, "x < 0.33", 2, 0.4)
-      , water(1000., false, grid.triangulation(), grid.mapping())
-      , mixture(grid, 2)
-      , pores(grid)
-      , soil_field(grid)
-      , water_field(grid)
-      , excess(grid)
-      , flow(grid.numbering())
-      , forces(grid.numbering())
-      , walls(grid, WaterBoundaryParameters())
-      , surface(grid, corners, walls, nullptr)
-      , gaps(grid, nullptr, 0.)
-      , part(grid, corners, surface, nullptr, gaps)
-      , pair(grid, corners, part)
-      , schur(grid, corners, surface, part, pair)
-      , pressure(corners.partitioner())
-      , sums(corners.partitioner())
+      : WetScene<dim>(basis, "FLIP", "x < 0.33", 2)
   {
-    WaterParameters parameters;
-    parameters.region          = "y < 0.44";
-    parameters.points_per_cell = 3;
-    seed_water(
-        water, parameters, { { "Soil", "x < 0.33", 0.4, soil.density } }, { grid.triangulation(), grid.cell_size() });
-    for (PointSet<dim> *points : { &soil.points, &water.points() })
+    for (PointSet<dim> *points : { &this->soil.points, &this->water.points() })
       shake(*points);
-    soil.drag.emplace(parameters, 0.4);
-    TransferParameters flip;
-    flip.method = "FLIP"; // The points have no room for a gradient.
-    const WaterTransfer<dim> transfer(grid, flip, parameters);
-    transfer.soil_to_grid(soil, mixture);
-    transfer.to_grid(water, mixture, water_field, excess, pores);
+    this->gather();
     for (const MixtureCell<dim> &cell : mixture.cells())
-      {
-        pores.activate_cell(cell.cell);
-        flow.activate_cell(cell.cell);
-        forces.activate_cell(cell.cell);
-      }
-    water_field.add_contributions();
-    pores.add_contributions();
+      for (FlowField<dim> *field : { &flow, &forces })
+        field->activate_cell(cell.cell);
     surface.locate(mixture, pressure);
     part.find(
         mixture, [](const unsigned int, const unsigned int) { return false; }, time_step);
@@ -165,24 +132,18 @@ public:
 
   static constexpr double time_step = 0.01;
 
-  const BackgroundGrid<dim> grid;
-  const NodeNumbering<dim> corners;
-  ElasticSoil<dim> soil;
-  WaterPhase<dim> water;
-  Mixture<dim> mixture;
-  PoreField<dim> pores;
-  NodalField<dim> soil_field, water_field, excess;
-  FlowField<dim> flow, forces;
-  const BoundaryConditions<dim> walls;
-  FreeSurface<dim> surface;
-  const GroundGaps<dim> gaps;
-  FilledPart<dim> part;
-  PressurePair<dim> pair;
+  const NodeNumbering<dim> corners = numbered(grid);
+  FlowField<dim> flow{ grid.numbering() }, forces{ grid.numbering() };
+  const BoundaryConditions<dim> walls{ grid, WaterBoundaryParameters() };
+  FreeSurface<dim> surface{ grid, corners, walls, nullptr };
+  const GroundGaps<dim> gaps{ grid, nullptr, 0. };
+  FilledPart<dim> part{ grid, corners, surface, nullptr, gaps };
+  PressurePair<dim> pair{ grid, corners, part };
   PressedNodes<dim> nodes;
   std::vector<CutFacet<dim>> facets;
   GroundRows<dim> rows{ grid };
-  SchurOperator<dim> schur;
-  VertexVector pressure, sums;
+  SchurOperator<dim> schur{ grid, corners, surface, part, pair };
+  VertexVector pressure{ corners.partitioner() }, sums{ corners.partitioner() };
 
 private:
   static NodeNumbering<dim> numbered(const BackgroundGrid<dim> &grid)
@@ -237,10 +198,8 @@ void test(const std::string &basis, const double volume, const std::vector<doubl
   expect(sum_of_ranks(total).norm() / size, 0., 1e-11, name + "sum of forces");
 
   // Uniform flow, and turning as a rigid body.
-  const double scale = std::pow(scene.grid.cell_size(), dim - 1);
-  Tensor<1, dim> uniform;
-  for (unsigned int c = 0; c < dim; ++c)
-    uniform[c] = 1. + c;
+  const double scale           = std::pow(scene.grid.cell_size(), dim - 1);
+  const Tensor<1, dim> uniform = point_of<dim>([](const unsigned int c) { return 1. + c; });
   scene.set_flow([&](const Point<dim> &) { return Vectors{ uniform, -0.5 * uniform }; });
   expect(scene.largest_divergence() / scale, 0., 1e-11, name + "divergence of uniform flow");
   scene.set_flow([&](const Point<dim> &x) {

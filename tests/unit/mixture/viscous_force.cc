@@ -21,33 +21,24 @@ struct Nodes
   const BackgroundGrid<dim> &grid;
   const ViscousForce<dim> &force;
   const WaterPhase<dim> &water;
-  NodalField<dim> masses, motion, forces;
+  NodalField<dim> masses{ grid }, motion{ grid }, forces{ grid };
 
   Nodes(const BackgroundGrid<dim> &grid, const ViscousForce<dim> &force, const WaterPhase<dim> &water)
       : grid(grid)
       , force(force)
       , water(water)
-      , masses(grid)
-      , motion(grid)
-      , forces(grid)
   {
     masses.clear();
     for_each_point(water.points(), [&](const auto &point) {
       masses.activate_cell(point.cell);
       for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
         masses[grid.nodes(point.cell)[i]][NodalField<dim>::mass] +=
-            point.properties[water.layout.mass] * shape(i, point.reference_location, grid.open_knots(point.cell));
+            point.properties[water.layout.mass] *
+            evaluate(grid, point.cell, point.reference_location, [&](const unsigned int node) {
+              return node == grid.nodes(point.cell)[i];
+            }).first;
     });
     masses.add_contributions();
-  }
-
-  double shape(const unsigned int i, const Point<dim> &x, const OpenKnots open) const
-  {
-    const unsigned int n = grid.n_nodes_1d();
-    double value         = 1.;
-    for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
-      value *= n == 2 ? CellBasis<dim, 2>(x, open).value[a][rest % n] : CellBasis<dim, 3>(x, open).value[a][rest % n];
-    return value;
   }
 
   void move(const Velocity<dim> &velocity)
@@ -109,10 +100,7 @@ void examine(Nodes<dim> nodes, const double viscosity_times_volume, const double
 {
   const auto vector = [](const std::function<double(const Point<dim> &, unsigned int)> &component) {
     return [component](const Point<dim> &x) {
-      Tensor<1, dim> v;
-      for (unsigned int c = 0; c < dim; ++c)
-        v[c] = component(x, c);
-      return v;
+      return point_of<dim>([&](const unsigned int c) { return component(x, c); });
     };
   };
   const auto scattered = vector([](const Point<dim> &x, const unsigned int c) { return pattern<dim>(x * (1. + c)); });

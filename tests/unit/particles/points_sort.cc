@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Handing points over: cells and ranks come out as deal.II's own sort leaves them, and places as those of its mapping,
 // whether points stay in their cells, change cells and ranks, fly through several cells or leave the mesh; cells are in
 // order; the own lists are those of the handler, point by point; while few change cells, nothing moves in memory; and
@@ -32,10 +31,8 @@ void test()
       if (cell->is_locally_owned() && cell->center()[1] < 0.5)
         for (unsigned int p = 0; p < 3; ++p)
           {
-            Point<dim> reference;
-            for (unsigned int a = 0; a < dim; ++a)
-              reference[a] = 0.2 + 0.3 * p;
-            const Point<dim> x = mapping.transform_unit_to_real_cell(cell, reference);
+            const auto reference = point_of<dim>([&](const unsigned int) { return 0.2 + 0.3 * p; });
+            const Point<dim> x   = mapping.transform_unit_to_real_cell(cell, reference);
             std::vector<double> number{ 0. }; // one for each point, whatever its rank
             for (unsigned int a = 0; a < dim; ++a)
               number[0] = 10 * number[0] + x[a];

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Seeding: a body has the mass of its region, within 0.1 % where its surface is oblique to the lattice and exactly
 // where it is not; no point has less than a quarter of a cube's volume; all points lie where their cell says. Water has
 // the volume of its region outside the soil and of the pores inside, also where the surfaces of both cut the lattice;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Files that are written while a run goes on: the order of stages and jobs, faults of one rank, and the end of a run.
 #include "../test.h"
 

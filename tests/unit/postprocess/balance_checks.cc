@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // What the lines `Checks` of a run say of mass, momentum and energy, against hand calculation, and how they are laid
 // out.
 #include "../soil.h"
-
 
 #include <scree/postprocess/measures.h>
 #include <scree/postprocess/checks.h>
@@ -15,12 +13,11 @@ struct Watched
 {
   SoilScene<2> scene{ 0., 0.8 };
   BodyForces<2> forces;
-  BalanceChecks<2> checks;
+  BalanceChecks<2> checks{ scene.grid, forces };
   Statistics<2> statistics;
 
   explicit Watched(const double mass_scaling = 1.)
       : forces(scene.grid, { 0., -10. }, BodyForceParameters(), mass_scaling)
-      , checks(scene.grid, forces)
       , statistics(scene.grid, forces.gravity(), features(mass_scaling))
   {
     scene.add_soil("x < 0.4 && y < 0.4");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // The measures of the statistics on fields made by hand.
 #include "../soil.h"
-
 
 #include <scree/postprocess/measures.h>
 #include <scree/tensor/invariants.h>
@@ -39,9 +37,7 @@ struct Scene : SoilScene<dim>
       if (cell->is_locally_owned() && where.contains(cell->center()))
         for (unsigned int i = 0; i < n; ++i)
           {
-            Point<dim> reference;
-            for (unsigned int a = 0; a < dim; ++a)
-              reference[a] = (i >> a) & 1 ? 0.75 : 0.25;
+            const auto reference = point_of<dim>([i](const unsigned int a) { return (i >> a) & 1 ? 0.75 : 0.25; });
             set.points().add(cell, cell->vertex(0) + grid.cell_size() * reference, id++, properties);
           }
     set.points().finish_adding();
@@ -124,15 +120,6 @@ void test_oscillation()
   expect(stress_oscillation(block.bodies, block.grid), 0, 0, "oscillation of soil without stress");
 }
 
-template <int dim>
-void test_invariants()
-{
-  // Uniaxial compression by 3 and a pure shear: q^2 = 3^2 + 3 * 4^2 (von Mises).
-  const double stress[6] = { -3, 0, 0, 4, 0, 0 };
-  expect(mean_effective_stress(stress), 1., 1e-15, "P");
-  expect(deviatoric_stress<dim>(stress), std::sqrt(57.), 1e-14, "q");
-}
-
 /// Soil in 0 < x < 0.4, which is all grains, and water that reaches from its middle to x = 0.6.
 template <int dim>
 void test_water()
@@ -209,7 +196,6 @@ void test_carried_water()
 template <int dim>
 void test()
 {
-  test_invariants<dim>();
   test_percentiles<dim>();
   test_oscillation<dim>();
   test_water<dim>();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Values at places, columns above the ground and the front, of fields made by hand.
 #include "../soil.h"
-
 
 #include <scree/postprocess/measures.h>
 #include <scree/postprocess/probes.h>
@@ -39,10 +37,7 @@ struct Block : SoilScene<dim>
 template <int dim>
 Point<dim> place(const double x, const double y)
 {
-  Point<dim> result;
-  for (unsigned int a = 0; a < dim; ++a)
-    result[a] = a == 0 ? x : y;
-  return result;
+  return point_of<dim>([&](const unsigned int a) { return a == 0 ? x : y; });
 }
 
 /// A linear field is found to rounding inside, at a wall, in a corner and a little above the surface.

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
-// Pictures and statistics of soil and water: which columns there are, and fields that move with known velocities.
+// Statistics of soil and water: which columns there are, and fields that move with known velocities.
 #include "../soil.h"
 
-
-#include <scree/io/run_folder.h>
 #include <scree/postprocess/graphics.h>
 #include <scree/postprocess/statistics.h>
 
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -20,12 +15,10 @@ template <int dim>
 struct Scene : SoilScene<dim>
 {
   using SoilScene<dim>::grid;
-  NodalField<dim> soil_field, water_field;
+  NodalField<dim> soil_field{ grid }, water_field{ grid };
 
   Scene()
       : SoilScene<dim>(0., 0.8)
-      , soil_field(grid)
-      , water_field(grid)
   {
     SoilBody<dim> &soil = this->add_wet_soil("x < 0.4", 0.25);
     const auto &layout  = this->water.back().layout;
@@ -56,9 +49,7 @@ void test_interpolation()
   for (const auto &cell : scene.grid.triangulation().active_cell_iterators())
     if (cell->is_locally_owned())
       {
-        Point<dim> x;
-        for (unsigned int a = 0; a < dim; ++a)
-          x[a] = 0.3 + 0.2 * a;
+        const auto x             = point_of<dim>([](const unsigned int a) { return 0.3 + 0.2 * a; });
         const unsigned int index = cell->active_cell_index();
         const double at          = cell->vertex(0)[0];
         expect(velocity_at(x, scene.grid, index, scene.soil_field)[0], 1., 1e-12, "velocity of the soil");
@@ -75,55 +66,6 @@ void test_interpolation()
           corners[v] = pressure(GeometryInfo<dim>::unit_cell_vertex(v));
         expect(pressure_at<dim>(x, corners), pressure(x), 1e-12, "bilinear pressure");
       }
-}
-
-/// The arrays of a `.pvtu` file are those of a list, with blanks between them.
-void expect_arrays(const std::string &file, const std::string &arrays)
-{
-  std::ifstream in(file);
-  require(bool(in), "There is no file " + file);
-  std::string found;
-  for (std::string line; std::getline(in, line);)
-    if (const auto begin = line.find("Name=\""); begin != std::string::npos)
-      {
-        const std::string name = line.substr(begin + 6, line.find('"', begin + 6) - begin - 6);
-        found += (found.empty() ? "" : " ") + name.substr(0, name.find(" ["));
-      }
-  require(found == arrays, file + " has the arrays " + found);
-}
-
-template <int dim>
-void test_graphics()
-{
-  Scene<dim> scene;
-  scene.set_velocities(-1.);
-  const std::string folder = "run_" + std::to_string(dim), solution = folder + "/solution/";
-  if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-    std::filesystem::create_directories(solution);
-  MPI_Barrier(MPI_COMM_WORLD);
-  Graphics<dim> graphics(scene.grid, OutputParameters(), folder);
-  const WaterView<dim> view{ scene.water, scene.water_field, [](const unsigned int) {
-                              std::array<double, (1 << dim)> corners;
-                              corners.fill(100.);
-                              return corners;
-                            } };
-  BackgroundWriter writer(MPI_COMM_WORLD);
-  writer.start(graphics.write(scene.bodies, scene.soil_field, 0., &view));
-  writer.start(graphics.write({}, scene.soil_field, 1., &view)); // pure water has no series of soil points
-  writer.start(graphics.write(scene.bodies, scene.soil_field, 2.));
-  writer.finish();
-  MPI_Barrier(MPI_COMM_WORLD);
-  const std::string stresses = "mean_effective_stress deviatoric_stress stress_ratio mass volume body",
-                    of_water = "velocity seepage_velocity pressure mass volume porosity inside_soil";
-  expect_arrays(solution + "points_00000.pvtu",
-                "velocity stress seepage_velocity " + stresses + " porosity pore_pressure id");
-  expect_arrays(solution + "water_00000.pvtu", of_water);
-  expect_arrays(solution + "grid_00000.pvtu",
-                "velocity water_velocity density mean_effective_stress pressure porosity saturation");
-  expect_arrays(solution + "points_00001.pvtu", "velocity stress " + stresses + " id");
-  expect_arrays(solution + "water_00001.pvtu", of_water);
-  expect_arrays(solution + "grid_00002.pvtu", "velocity density mean_effective_stress");
-  require(!std::filesystem::exists(solution + "water_00002.pvtu"), "A dry picture wrote water.");
 }
 
 /// The numbers that a row of statistics prints, by column.
@@ -211,7 +153,6 @@ template <int dim>
 void test()
 {
   test_interpolation<dim>();
-  test_graphics<dim>();
   test_statistics<dim>();
 }
 

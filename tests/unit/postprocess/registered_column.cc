@@ -5,7 +5,6 @@
 #include <scree/io/run_folder.h>
 #include <scree/postprocess/statistics.h>
 
-
 namespace test_registered_column
 {
 bool is_asked = false; // other tests of this program print all columns

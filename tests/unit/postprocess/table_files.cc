@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
-// The files that a table grows in: names of columns in a .csv, rows before and after a resume; times in names of files.
+// The files that a table grows in: names of columns in a .csv; times in names of files.
 #include "../test.h"
 
 #include <scree/io/run_folder.h>
 #include <scree/io/output_parameters.h>
-#include <scree/io/files.h>
 
-#include <boost/archive/text_iarchive.hpp>
-#include <boost/archive/text_oarchive.hpp>
-
-#include <filesystem>
 #include <map>
-#include <sstream>
 
 namespace test_table_files
 {
@@ -38,33 +31,6 @@ void test_names()
 }
 
 
-/// A run that writes two rows behind its checkpoint, and is resumed.
-void grow()
-{
-  const std::vector<std::string> columns{ "Time (s)", "Front 90 % (m)", "Step" };
-  std::filesystem::remove_all("tables");
-  RunFolder folder("tables", false, MPI_COMM_WORLD);
-  TableFile before(folder, "table"), after(folder, "table");
-  before.append(columns, { { 0., 1. / 3., 0. } });
-  std::stringstream checkpoint;
-  boost::archive::text_oarchive(checkpoint) << before;
-  before.append(columns, { { 0.1, std::numeric_limits<double>::quiet_NaN(), 12. }, { 0.2, 1e-20, 24. } });
-  const std::string head = "time_s,front_90_m,step\n0,0.3333333333333,0\n";
-  expect_text(read_whole_file("tables/table.csv"), head + "0.1,nan,12\n0.2,1e-20,24\n", "table.csv");
-  boost::archive::text_iarchive(checkpoint) >> after;
-  after.cut();
-  after.append(columns, { { 0.1, 1e6, 12. } });
-  after.sync();
-  after.complete();
-  expect_text(read_whole_file("tables/table"),
-              "# 1: Time (s)\n# 2: Front 90 % (m)\n# 3: Step\n"
-              "0.000000000000e+00 3.333333333333e-01 0.000000000000e+00 \n"
-              "1.000000000000e-01 1.000000000000e+06 1.200000000000e+01 \n",
-              "table after a resume");
-  expect_text(read_whole_file("tables/table.csv"), head + "0.1,1000000,12\n", "table.csv after a resume");
-}
-
-
 /// Times of the start, of an interval and of the end in names of files.
 void test_label(const double end, const double interval, const std::string &expected)
 {
@@ -75,7 +41,6 @@ void test_label(const double end, const double interval, const std::string &expe
 
 const UnitTest registered_test("table_files", [] {
   test_names();
-  grow();
   test_label(40., 5., "00s 05s 40s");
   test_label(2., 0.05, "0.00s 0.05s 2.00s");
   test_label(1., 1. / 3., "0.000000000s 0.333333333s 1.000000000s");

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // The numbers of an advice that follow from those of a scene: groups against hand calculation, regimes over the
 // conductivity, cell sizes that divide the box, steps as the clock takes them, cost in proportion.
 #include "../test.h"

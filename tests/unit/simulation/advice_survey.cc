@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // What an advice finds in the points of a case: sizes, counts, stiffness and fall of the centre of mass, against hand
 // calculation.
 #include "../test.h"

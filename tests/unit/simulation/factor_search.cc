@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // The search of a factor of safety, and the judgement of a trial from displacement and speed over time.
 #include "../test.h"
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Averages of the strain that softens soil, own + 2 (mean - own): of fields whose mean is known.
 #include "../soil.h"
 
 #include <scree/materials/laws/mohr_coulomb.h>
 #include <scree/transfer/nonlocal_average.h>
-
 
 namespace test_nonlocal_average
 {
@@ -29,16 +27,13 @@ template <int dim>
 struct Soil
 {
   explicit Soil(const std::string &region)
-      : grid(grid_box(0., dim == 2 ? std::vector<double>{ 8., 6. } : std::vector<double>{ 8., 6., 6. }, cell_size),
-             MPI_COMM_WORLD)
-      , body("Soil",
+      : body("Soil",
              1e3,
              2e3,
              make_material<dim>(material()),
              PropertyLayout<dim>(3, false),
              grid.triangulation(),
              grid.mapping())
-      , average(grid)
   {
     seed_region(body, grid, region, 2);
   }
@@ -78,9 +73,12 @@ struct Soil
     return max_of_ranks(largest);
   }
 
-  BackgroundGrid<dim> grid;
+  BackgroundGrid<dim> grid{
+    grid_box(0., dim == 2 ? std::vector<double>{ 8., 6. } : std::vector<double>{ 8., 6., 6. }, cell_size),
+    MPI_COMM_WORLD
+  };
   SoilBody<dim> body;
-  NonlocalAverage<dim> average;
+  NonlocalAverage<dim> average{ grid };
 };
 
 

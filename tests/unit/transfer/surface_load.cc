@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Surface load: the markers have the patch's area, also where it ends inside a cell; the nodes get its force and
 // moment; markers move with the nodes' velocity and stay in the box, and the work is that of the force at the nodes. A
 // uniform stress is in balance with the load on its face, wherever that face lies in its cell: at every node that takes
@@ -47,11 +46,8 @@ void test_patch(const std::string &basis,
 
   // A linear field of velocity, which the nodes carry exactly: the power is that of the markers' places. Nodes of equal
   // mass lead a marker as its shape functions do.
-  const auto velocity = [](const Point<dim> &x) {
-    Tensor<1, dim> v;
-    for (unsigned int c = 0; c < dim; ++c)
-      v[c] = 0.3 + 0.1 * c + 0.7 * x[0] - 0.2 * x[dim - 1];
-    return v;
+  const auto velocity = [](const Point<dim> &x) -> Tensor<1, dim> {
+    return point_of<dim>([&](const unsigned int c) { return 0.3 + 0.1 * c + 0.7 * x[0] - 0.2 * x[dim - 1]; });
   };
   Tensor<1, dim> nodal_sum;
   double nodal_work = 0;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // What the points hand to the nodes, for every basis and transfer: mass and momentum arrive whole, and internal forces
 // of any stress cancel, because shape functions sum to one and their gradients to zero; a linear field of velocity that
 // the points have with its gradient arrives as such at each node. The body touches walls and has oblique edges; stress,
@@ -7,7 +6,6 @@
 #include "../soil.h"
 
 #include <scree/transfer/transfer.h>
-
 
 namespace test_transfer_sums
 {

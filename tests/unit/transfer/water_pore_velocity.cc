@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 // Velocities of water points with the porosity of their own place, for every transfer:
 // - soil and water lie anyhow and nodes move at random: the points' momentum is that of the nodes (FLIP, AFLIP:
 //   its change);
@@ -10,203 +9,160 @@
 // - uniform porosity gives the velocity of the nodes to rounding, water without soil gives it to the last digit.
 #include "../soil.h"
 
-
-#include <scree/transfer/water_transfer.h>
-
 namespace test_water_pore_velocity
 {
-namespace
+constexpr double time_step = 1.; // s: displacements of the size of velocities
+
+template <int dim>
+class Scene : public WetScene<dim>
 {
-  constexpr double time_step = 1.; // s: displacements of the size of velocities
+public:
+  using Field = NodalField<dim>;
+  using WetScene<dim>::grid, WetScene<dim>::pores, WetScene<dim>::soil_field, WetScene<dim>::water_field;
 
-  /// Water up to y = .44 m in a box of 6 cells an axis, with soil of porosity .4 where an expression says.
-  template <int dim>
-  class Scene
+  Scene(const std::string &basis, const std::string &method, const std::string &soil_region)
+      : WetScene<dim>(basis, method, soil_region, dim == 2 ? 4 : 2)
   {
-  public:
-    Scene(const std::string &basis, const std::string &method, const std::string &soil_region)
-        : grid(grid_box<dim>(0., 0.6, 0.1, basis), MPI_COMM_WORLD)
-        , soil(grid, soil_region, points_of_soil, 0.4)
-        , water(1000., true, grid.triangulation(), grid.mapping())
-        , mixture(grid, points_of_soil)
-        , pores(grid)
-        , soil_field(grid)
-        , water_field(grid)
-        , excess(grid)
-    {
-      water_parameters.region          = "y < 0.44";
-      water_parameters.points_per_cell = 3;
-      const std::string region         = soil_region == "none" ? "0" : soil_region;
-      seed_water(
-          water, water_parameters, { { "Soil", region, 0.4, 1500. } }, { grid.triangulation(), grid.cell_size() });
-      transfer_parameters.method   = method;
-      transfer_parameters.pic_rate = 0;
-      soil.drag.emplace(water_parameters, 0.4);
-      transfer = std::make_unique<WaterTransfer<dim>>(grid, transfer_parameters, water_parameters);
-    }
-
-    /// Points to nodes, summed over ranks; soil at rest, water with its velocity; the nodes' change is their velocity.
-    void gather()
-    {
-      transfer->soil_to_grid(soil, mixture);
-      transfer->to_grid(water, mixture, water_field, excess, pores);
-      for (const auto &cell : mixture.cells())
-        {
-          soil_field.activate_cell(cell.cell);
-          pores.activate_cell(cell.cell);
-          water_field.activate_cell(cell.cell);
-        }
-      pores.add_contributions();
-      water_field.add_contributions();
-      for (const unsigned int node : pores.active_nodes())
-        if (const double solid = 1000. * pores[node][PoreField<dim>::local_solid_volume]; solid > 0.)
-          pores[node][PoreField<dim>::grain_fraction] = solid / (water_field[node][Field::mass] + solid);
-      for (const unsigned int node : water_field.active_nodes())
-        if (const double mass = water_field[node][Field::mass]; mass > 0.)
-          set_vector<dim>(
-              water_field[node], Field::velocity, vector_of<dim>(water_field[node], Field::velocity) / mass);
-    }
-
-    /// Random velocities of soil and water at the nodes.
-    void move_nodes()
-    {
-      for (NodalField<dim> *field : { &soil_field, &water_field })
-        for (const unsigned int node : field->active_nodes())
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              const Point<dim> place =
-                  grid.node_position(node) + (field == &soil_field ? 1. : 3.) * Point<dim>::unit_vector(c);
-              (*field)[node][Field::velocity + c] = (*field)[node][Field::velocity_change + c] = pattern(place);
-            }
-    }
-
-    void scatter()
-    {
-      soil_field.update_ghosts();
-      water_field.update_ghosts();
-      pores.update_ghosts();
-      transfer->to_points(
-          water,
-          { soil_field, water_field, pores },
-          mixture,
-          [](const unsigned int) { return std::array<double, (1 << dim)>(); },
-          time_step);
-    }
-
-    static constexpr unsigned int points_of_soil = dim == 2 ? 4 : 2; // of a cell, along each axis
-
-    using Field = NodalField<dim>;
-    const BackgroundGrid<dim> grid;
-    ElasticSoil<dim> soil;
-    WaterPhase<dim> water;
-    WaterParameters water_parameters;
-    TransferParameters transfer_parameters;
-    std::unique_ptr<WaterTransfer<dim>> transfer;
-    Mixture<dim> mixture;
-    PoreField<dim> pores;
-    NodalField<dim> soil_field, water_field, excess;
-  };
-
-  /// Points' momentum less the nodes', over the sum of its parts' size.
-  template <int dim>
-  double momentum_error(const std::string &basis, const std::string &method)
-  {
-    Scene<dim> scene(basis, method, "x + 0.7 * y < 0.37");
-    shake(scene.soil.points);
-    shake(scene.water.points());
-    const auto &layout = scene.water.layout;
-    for_each_point(scene.water.points(),
-                   [&](const auto &point) { set_vector(point.properties, layout.velocity, Tensor<1, dim>()); });
-    scene.gather();
-    scene.move_nodes();
-    scene.scatter();
-    Tensor<1, dim> sum;
-    double size = 0.;
-    for_each_point(scene.water.points(), [&](const auto &point) {
-      const auto momentum = point.properties[layout.mass] * vector_of<dim>(point.properties, layout.velocity);
-      sum += momentum;
-      size += momentum.norm();
-    });
-    for (const unsigned int node : scene.water_field.active_nodes())
-      {
-        const double *values = scene.water_field[node];
-        sum -= values[NodalField<dim>::mass] * vector_of<dim>(values, NodalField<dim>::velocity);
-      }
-    return sum_of_ranks(sum).norm() / sum_of_ranks(size);
   }
 
-  /// Largest difference of a point's velocity, or of what its gradient adds over a cell, from U/n_p, over U.
-  template <int dim>
-  double flux_error(const std::string &method)
+  /// Points to nodes; soil at rest, water with its velocity; the nodes' change is their velocity.
+  void gather()
   {
-    const double flux = 0.02; // m/s
-    Scene<dim> scene("spline", method, "x < 0.25");
-    const auto &layout  = scene.water.layout;
-    const auto velocity = [&](const double x) { return (x < 0.25 ? flux / 0.4 : flux) * Point<dim>::unit_vector(0); };
-    for_each_point(scene.water.points(), [&](const auto &point) {
-      std::fill_n(point.properties + layout.affine, dim * dim, 0.);
-      set_vector<dim>(point.properties, layout.velocity, velocity(point.location[0]));
-    });
-    scene.gather();
-    std::vector<Point<dim>> places;
-    for_each_point(scene.water.points(), [&](const auto &point) { places.push_back(point.location); });
-    scene.scatter();
-    double error       = 0;
-    unsigned int index = 0;
-    for_each_point(scene.water.points(), [&](const auto &point) {
-      const Point<dim> place        = places[index++];
-      const Tensor<1, dim> expected = velocity(place[0]);
-      error                         = std::max({ error,
-                                                 (vector_of<dim>(point.properties, layout.velocity) - expected).norm() / flux,
-                                                 ((point.location - place) / time_step - expected).norm() / flux });
-      if (method == "TPIC")
-        for (unsigned int i = 0; i < dim * dim; ++i)
-          error = std::max(error, std::abs(point.properties[layout.affine + i]) * scene.grid.cell_size() / flux);
-    });
-    return error;
+    WetScene<dim>::gather();
+    for (const unsigned int node : pores.active_nodes())
+      if (const double solid = 1000. * pores[node][PoreField<dim>::local_solid_volume]; solid > 0.)
+        pores[node][PoreField<dim>::grain_fraction] = solid / (water_field[node][Field::mass] + solid);
+    for (const unsigned int node : water_field.active_nodes())
+      if (const double mass = water_field[node][Field::mass]; mass > 0.)
+        set_vector<dim>(water_field[node], Field::velocity, vector_of<dim>(water_field[node], Field::velocity) / mass);
   }
 
-  /// Largest difference of a point's velocity from that of the nodes there.
-  template <int dim>
-  double plain_error(const std::string &method, const std::string &soil_region)
+  /// Random velocities of soil and water at the nodes.
+  void move_nodes()
   {
-    Scene<dim> scene("spline", method, soil_region), same("spline", method, "none");
-    for (Scene<dim> *one : { &scene, &same })
-      {
-        shake(one->water.points());
-        one->gather();
-        one->move_nodes();
-      }
-    // Nodes of the same motion, of which one set knows nothing of soil.
-    scene.scatter();
-    same.scatter();
-    std::vector<Tensor<1, dim>> velocities;
-    const unsigned int first = same.water.layout.velocity;
-    for_each_point(same.water.points(),
-                   [&](const auto &point) { velocities.push_back(vector_of<dim>(point.properties, first)); });
-    double error       = 0;
-    unsigned int index = 0;
-    for_each_point(scene.water.points(), [&](const auto &point) {
-      error = std::max(error, (vector_of<dim>(point.properties, first) - velocities[index++]).norm());
-    });
-    return error;
+    for (NodalField<dim> *field : { &soil_field, &water_field })
+      for (const unsigned int node : field->active_nodes())
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const Point<dim> place =
+                grid.node_position(node) + (field == &soil_field ? 1. : 3.) * Point<dim>::unit_vector(c);
+            (*field)[node][Field::velocity + c] = (*field)[node][Field::velocity_change + c] = pattern(place);
+          }
   }
 
-  template <int dim>
-  void test()
+  void scatter()
   {
-    const std::string of = std::to_string(dim) + "D: error of ";
-    for (const std::string method : { "FLIP", "TPIC", "AFLIP" })
-      {
-        expect(momentum_error<dim>("spline", method), 0., 1e-14, of + "the momentum, " + method);
-        if (method == "TPIC") // the others keep the points' own velocity
-          expect(flux_error<dim>(method), 0., 1e-13, of + "the flux through a face, " + method);
-        expect(plain_error<dim>(method, "x < 1"), 0., 1e-14, of + "the velocity in uniform soil, " + method);
-        expect(plain_error<dim>(method, "none"), 0., 0., of + "the velocity without soil, " + method);
-      }
-    expect(momentum_error<dim>("linear", "TPIC"), 0., 1e-14, of + "the momentum, linear basis");
+    soil_field.update_ghosts();
+    water_field.update_ghosts();
+    pores.update_ghosts();
+    this->transfer->to_points(
+        this->water,
+        { soil_field, water_field, pores },
+        this->mixture,
+        [](const unsigned int) { return std::array<double, (1 << dim)>(); },
+        time_step);
   }
-} // namespace
+};
+
+/// Points' momentum less the nodes', over the sum of its parts' size.
+template <int dim>
+double momentum_error(const std::string &basis, const std::string &method)
+{
+  Scene<dim> scene(basis, method, "x + 0.7 * y < 0.37");
+  shake(scene.soil.points);
+  shake(scene.water.points());
+  const auto &layout = scene.water.layout;
+  for_each_point(scene.water.points(),
+                 [&](const auto &point) { set_vector(point.properties, layout.velocity, Tensor<1, dim>()); });
+  scene.gather();
+  scene.move_nodes();
+  scene.scatter();
+  Tensor<1, dim> sum;
+  double size = 0.;
+  for_each_point(scene.water.points(), [&](const auto &point) {
+    const auto momentum = point.properties[layout.mass] * vector_of<dim>(point.properties, layout.velocity);
+    sum += momentum;
+    size += momentum.norm();
+  });
+  for (const unsigned int node : scene.water_field.active_nodes())
+    {
+      const double *values = scene.water_field[node];
+      sum -= values[NodalField<dim>::mass] * vector_of<dim>(values, NodalField<dim>::velocity);
+    }
+  return sum_of_ranks(sum).norm() / sum_of_ranks(size);
+}
+
+/// Largest difference of a point's velocity, or of what its gradient adds over a cell, from U/n_p, over U.
+template <int dim>
+double flux_error(const std::string &method)
+{
+  const double flux = 0.02; // m/s
+  Scene<dim> scene("spline", method, "x < 0.25");
+  const auto &layout  = scene.water.layout;
+  const auto velocity = [&](const double x) { return (x < 0.25 ? flux / 0.4 : flux) * Point<dim>::unit_vector(0); };
+  for_each_point(scene.water.points(), [&](const auto &point) {
+    std::fill_n(point.properties + layout.affine, dim * dim, 0.);
+    set_vector<dim>(point.properties, layout.velocity, velocity(point.location[0]));
+  });
+  scene.gather();
+  std::vector<Point<dim>> places;
+  for_each_point(scene.water.points(), [&](const auto &point) { places.push_back(point.location); });
+  scene.scatter();
+  double error       = 0;
+  unsigned int index = 0;
+  for_each_point(scene.water.points(), [&](const auto &point) {
+    const Point<dim> place        = places[index++];
+    const Tensor<1, dim> expected = velocity(place[0]);
+    error                         = std::max({ error,
+                                               (vector_of<dim>(point.properties, layout.velocity) - expected).norm() / flux,
+                                               ((point.location - place) / time_step - expected).norm() / flux });
+    if (method == "TPIC")
+      for (unsigned int i = 0; i < dim * dim; ++i)
+        error = std::max(error, std::abs(point.properties[layout.affine + i]) * scene.grid.cell_size() / flux);
+  });
+  return error;
+}
+
+/// Largest difference of a point's velocity from that of the nodes there.
+template <int dim>
+double plain_error(const std::string &method, const std::string &soil_region)
+{
+  Scene<dim> scene("spline", method, soil_region), same("spline", method, "none");
+  for (Scene<dim> *one : { &scene, &same })
+    {
+      shake(one->water.points());
+      one->gather();
+      one->move_nodes();
+    }
+  // Nodes of the same motion, of which one set knows nothing of soil.
+  scene.scatter();
+  same.scatter();
+  std::vector<Tensor<1, dim>> velocities;
+  const unsigned int first = same.water.layout.velocity;
+  for_each_point(same.water.points(),
+                 [&](const auto &point) { velocities.push_back(vector_of<dim>(point.properties, first)); });
+  double error       = 0;
+  unsigned int index = 0;
+  for_each_point(scene.water.points(), [&](const auto &point) {
+    error = std::max(error, (vector_of<dim>(point.properties, first) - velocities[index++]).norm());
+  });
+  return error;
+}
+
+template <int dim>
+void test()
+{
+  const std::string of = std::to_string(dim) + "D: error of ";
+  for (const std::string method : { "FLIP", "TPIC", "AFLIP" })
+    {
+      expect(momentum_error<dim>("spline", method), 0., 1e-14, of + "the momentum, " + method);
+      if (method == "TPIC") // the others keep the points' own velocity
+        expect(flux_error<dim>(method), 0., 1e-13, of + "the flux through a face, " + method);
+      expect(plain_error<dim>(method, "x < 1"), 0., 1e-14, of + "the velocity in uniform soil, " + method);
+      expect(plain_error<dim>(method, "none"), 0., 0., of + "the velocity without soil, " + method);
+    }
+  expect(momentum_error<dim>("linear", "TPIC"), 0., 1e-14, of + "the momentum, linear basis");
+}
 
 
 const UnitTest registered("water_pore_velocity", [] {

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""flow_scenes.py SCREE SCENE: dry grains that flow down planes, against closed forms. Gravity is inclined, so that the plane is a wall of the box."""
+"""law_scenes.py SCREE SCENE: laws of the soil in motion, as scenes.py: dry grains that flow down planes, against closed forms (gravity is
+inclined, so that the plane is a wall of the box), clay with and without a strength that falls with strain, clay with an undrained
+strength, and mud."""
 
 import math
 
@@ -7,9 +9,7 @@ import numpy as np
 
 from scree.results import read_points
 
-from scene_tools import NO_STRESS, check, check_balances, main, run
-
-GRAVITY = 9.81
+from scene_tools import GRAVITY, NO_STRESS, check, check_balances, largest_fall, main, mean_load, run
 
 
 def gravity_down(degrees):
@@ -65,4 +65,53 @@ def savage_hutter_cap(scree):
     check_balances("cap", table)
 
 
-main(globals())
+def biaxial(scree):
+    """With a length of at least two cells, the load at 1 % does not depend on the cells; without one it falls with them (study shear_bands)."""
+    loads = {}
+    for cell in (0.1, 0.05):
+        name = "cells of %g m" % cell
+        table = run(scree, "softening/biaxial", "biaxial", {"Mesh/Cell size": cell, "Soil/Mohr-Coulomb/Nonlocal length": 0.2,
+                                                             "Output/Statistics interval": "0.005", "End time": "0.57"})
+        loads[cell] = mean_load(table)
+        check(name + ": largest load over 2 c, kPa", np.max(table["Obstacle Platen force y (N)"]) / 4e4, 0.97, 1.02)
+        check(name + ": energy made over work of the platen",
+              largest_fall(table["Numerical dissipation (J)"]) / table["Obstacle Platen work (J)"][-1], 0, 5e-3)
+    check("load at 1 %, small over large cells", loads[0.05] / loads[0.1], 0.98, 1.02)
+
+
+def vertical_cut(scree):
+    """A vertical cut in clay of strength s_u whose weight grows slowly falls at gamma H = 3.776 s_u, where the bounds of limit analysis meet."""
+    table = run(scree, "slopes/vertical_cut", "cut", {})
+    time = table["Time (s)"]
+    falls = np.min(time[(time > 2.3) & (table["Kinetic energy (J)"] > 2)], initial=np.inf)
+    check("gamma H/s_u as it falls, over 3.776", 2000 * (8 + 0.5 * (falls - 2)) * 2 / 1e4 / 3.776, 0.96, 1.04)
+
+
+TRESCA = {"Soil/Material": "Tresca", "Soil/Tresca/Young's modulus": "1e7", "Soil/Tresca/Poisson's ratio": "0.3", "Soil/Tresca/Undrained strength": "20e3",
+          "Soil/Tresca/Tension cut-off": "20e3", "Soil/Tresca/Sensitivity": "4", "Soil/Tresca/Remoulding strain": "0.15", "Output/Statistics interval": "0.005", "End time": "0.57",
+          "Weak/Material": "Tresca", "Weak/Tresca/Young's modulus": "1e7", "Weak/Tresca/Poisson's ratio": "0.3", "Weak/Tresca/Undrained strength": "5e3",
+          "Weak/Tresca/Tension cut-off": "5e3"}
+
+
+def clay_biaxial(scree):
+    """The load at 1 % is that of Mohr-Coulomb with the same fall and length, which does not depend on the cells (biaxial)."""
+    table = run(scree, "softening/biaxial", "biaxial", {"Mesh/Cell size": 0.1, "Soil/Tresca/Nonlocal length": 0.2, **TRESCA})
+    check("energy made over work of the platen", largest_fall(table["Numerical dissipation (J)"]) / table["Obstacle Platen work (J)"][-1], 0, 5e-3)
+    other = run(scree, "softening/biaxial", "mohr_coulomb", {"Mesh/Cell size": 0.1, "Soil/Mohr-Coulomb/Nonlocal length": 0.2, "Output/Statistics interval": "0.005", "End time": "0.57"})
+    check("load at 1 % over that of Mohr-Coulomb", mean_load(table) / mean_load(other), 0.999, 1.001)
+
+
+def mud_layer(scree):
+    """Mud on a plane, far from its ends: velocity and thickness of the plug, and the profile below it."""
+    run(scree, "clay/mud", "mud", {"Output/Graphics": "points", "Output/Interval": 3})
+    points = read_points("mud")
+    height, pull, plug = 2., 1500 * 9.81 * math.sin(math.radians(15)), 6e3 / (1500 * 9.81 * math.sin(math.radians(15)))
+    middle = np.abs(points.positions[:, 0] - 100) < 20
+    y, u = points.positions[middle, 1], points.arrays["velocity"][middle, 0]
+    exact = pull / 2e3 / 2 * ((height - plug) ** 2 - np.maximum(height - plug - y, 0.) ** 2)
+    check("velocity of the plug over the exact one", np.mean(u[y > 1]) / np.max(exact), 0.97, 1.03)
+    check("profile: RMS deviation over the RMS", np.sqrt(np.mean((u - exact) ** 2) / np.mean(exact ** 2)), 0, 0.04)
+
+
+if __name__ == "__main__":
+    main(globals())
