@@ -14,8 +14,8 @@ namespace scree
   template <int dim>
   struct PressuresAndTractions
   {
-    VertexVector pressures;
-    typename GroundRows<dim>::Vectors tractions;
+    VertexVector pressures;                      ///< by number
+    typename GroundRows<dim>::Vectors tractions; ///< by row
 
     /// All is 0.
     void clear(const std::size_t n_rows)
@@ -55,7 +55,7 @@ namespace scree
   class BoundedProgram
   {
   public:
-    using Vector = PressuresAndTractions<dim>;
+    using Vector = PressuresAndTractions<dim>; ///< of pressures and tractions, or of flows
 
     /// Sets `target` to an operator times `source`. Collective.
     using Operator = std::function<void(Vector &target, const Vector &source)>;

@@ -61,11 +61,13 @@ namespace scree
     double compliance = 0.;               ///< flow along the ground over the traction along it, m^dim/(Pa s); 0: sticks
     double diagonal   = 0.; ///< of dt N A^-1 N^T, as if no walls held the nodes, m^dim/(Pa s); see set_mobilities()
 
-    /// Whether the ground holds the motion into it, and that along it.
+    /// Whether the ground holds the motion into it.
     bool holds_across() const
     {
       return held == HeldMotion::across || held == HeldMotion::all;
     }
+
+    /// Whether it holds the motion along it.
     bool holds_along() const
     {
       return held == HeldMotion::along || held == HeldMotion::all;

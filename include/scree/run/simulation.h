@@ -79,7 +79,8 @@ namespace scree
     unsigned long long steps = 0;                   ///< number of time steps
   };
 
-  /// A run: a scene, the scheme that moves it, and its output. The top-level class of a run; `--safety` and `--advise` make runs of their own.
+  /// A run: a scene, the scheme that moves it, and its output. The top-level class of a run; `--safety` and `--advise`
+  /// make runs of their own.
   template <int dim>
   class Simulation
   {
