@@ -2,6 +2,7 @@
 """The phases of a slope of 2:1, 10 m high on 5 m of its soil, with cells of 1 m: settling, release, slide."""
 
 import re
+import subprocess
 import sys
 
 from case_tools import HERE, check, log_of, rows_of, run
@@ -49,6 +50,13 @@ def phases():
     check(log_of(folder).count("Settled for") == 1 and 'entry "Strength factor" = 1.2' in log_of(folder), "the slope settles again")
     print(f"centre of mass falls by {fall(slid):g} m with 1.8 and by {fall(stood):g} m with 1.2")
     check(fall(slid) > 0.05 and fall(stood) < 0.2 * fall(slid), "the slide does not depend on the factor")
+    later = {"Output/Checkpoint interval": 0.5, "End time": 1}
+    run("late", slope(**{**later, "Safety/Strength factor": 1.8}))
+    try:
+        run("late", slope(**{**later, "Safety/Strength factor": 1.2}), "--resume")
+    except subprocess.CalledProcessError:
+        return
+    check(False, "the factor changes after the release")
 
 
 {"weak": weak, "phases": phases}[sys.argv[3]]()
