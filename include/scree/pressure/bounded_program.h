@@ -4,6 +4,7 @@
 
 #include <scree/pressure/ground_rows.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <vector>
