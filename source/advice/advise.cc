@@ -606,9 +606,11 @@ namespace scree
     advice.n_ranks            = Utilities::MPI::n_mpi_processes(communicator);
     advice.coarser            = coarsening<dim>(parameters, communicator);
     advice.memory             = [&](const double cell_size) {
-      parameters.grid           = advice.grid;
-      parameters.grid.cell_size = cell_size;
-      return estimate_memory<dim>(parameters).bytes(advice.n_ranks);
+      const GridParameters of_last_run = std::exchange(parameters.grid, advice.grid);
+      parameters.grid.cell_size        = cell_size;
+      const double bytes               = estimate_memory<dim>(parameters).bytes(advice.n_ranks);
+      parameters.grid                  = of_last_run;
+      return bytes;
     };
 
     parameters.output.screen              = "nothing";

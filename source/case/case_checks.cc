@@ -361,9 +361,10 @@ namespace scree
     /// What --resume does with an entry that has changed.
     enum class Change
     {
-      free,   ///< goes on
-      noted,  ///< goes on, and the log says so
-      refused ///< stops
+      free,             ///< goes on
+      noted,            ///< goes on, and the log says so
+      noted_at_release, ///< the same from the checkpoint of the release, refused from later ones
+      refused           ///< stops
     };
 
     /// Points carry an affine field of velocity with some methods only.
@@ -390,6 +391,7 @@ namespace scree
                                    { "Output/Maps", "Format", Change::free },
                                    { "Time step", "Mass scaling", Change::refused },
                                    { "Time step", "", Change::noted },
+                                   { "Safety", "Strength factor", Change::noted_at_release },
                                    { "Safety", "", Change::noted },
                                    { "Transfer", "Method", Change::noted, methods_of_same_points },
                                    { "Transfer", "PIC rate", Change::noted },
@@ -430,9 +432,9 @@ namespace scree
     const auto compare = [&](const CaseEntry &entry, const CaseEntry *was, const CaseEntry *is, const bool in_both) {
       if (was && is && same_value(*was, *is))
         return;
-      // It acts from the release on: later, part of the run would have another strength.
-      const bool is_late   = entry.subsection == "Safety" && entry.name == "Strength factor" && checkpoint.step > 0;
-      const Change kind    = is_late ? Change::refused : kind_of(entry, was, is);
+      Change kind = kind_of(entry, was, is);
+      if (kind == Change::noted_at_release)
+        kind = checkpoint.step > 0 ? Change::refused : Change::noted;
       const bool are_files = was && is && !was->checksum.empty() && !is->checksum.empty();
       const Refused change{ entry_name(entry.subsection, entry.name),
                             " = " + value_text(is),

@@ -210,16 +210,18 @@ namespace scree
       return rows;
     }
 
-    /// Adds what the law of a point has to say; fields of other laws are 0.
+    /// Adds the fields of a point's law; those of other laws are 0.
+    /// @param values memory that is used again from point to point
     template <int dim>
     void put_law_fields(Picture<0, dim> &output,
                         const SoilBody<dim> &body,
                         const double *properties,
-                        const std::vector<unsigned int> &rows)
+                        const std::vector<unsigned int> &rows,
+                        std::vector<double> &values)
     {
       const double *internals       = properties + body.layout.internal_variables;
       const unsigned int n_internal = body.material->internal_quantities.size();
-      std::vector<double> values(internals, internals + n_internal);
+      values.assign(internals, internals + n_internal);
       values.resize(rows.size());
       body.material->output(properties + body.layout.left_cauchy_green,
                             internals,
@@ -259,6 +261,7 @@ namespace scree
       if (has_displacement)
         output.add("displacement", "m", output.vector);
       const auto rows_of_laws = add_law_fields(output, bodies);
+      std::vector<double> values_of_law;
 
       unsigned int number = 0;
       for (const auto &body : bodies)
@@ -287,7 +290,7 @@ namespace scree
                 output.put(static_cast<double>(*id++));
                 if (has_displacement)
                   output.put(point.location - Point<dim>(vector_of<dim>(properties + body.layout.start)));
-                put_law_fields(output, body, properties, rows_of_laws[number]);
+                put_law_fields(output, body, properties, rows_of_laws[number], values_of_law);
               });
             }
           ++number;

@@ -321,35 +321,48 @@ namespace scree
                                   const std::vector<double> &fractions,
                                   const MPI_Comm communicator)
   {
+    struct Search
+    {
+      double begin, end, wanted;     // mass between begin and the percentile
+      std::vector<PartOfMass> parts; // between begin and end
+    };
     double all = 0.;
     for (const PartOfMass &part : parts)
       all += part.mass;
-    all                               = Utilities::MPI::sum(all, communicator);
-    constexpr unsigned int n_halvings = 50;
-    std::vector<double> result;
+    all = Utilities::MPI::sum(all, communicator);
+    // Equal masses often add up to just the given part: rounding must not choose the point.
+    std::vector<Search> searches;
     for (const double fraction : fractions)
+      searches.push_back({ lower, upper, fraction * all * (1. - 1e-12), parts });
+
+    constexpr unsigned int n_halvings = 50;
+    for (unsigned int i = 0; i < n_halvings; ++i)
       {
-        double begin = lower, end = upper;
-        std::vector<PartOfMass> between = parts; // begin and end
-        // Of the mass from begin to the percentile. Equal masses often add up to just the given part: rounding must not
-        // choose the point.
-        double wanted = fraction * all * (1. - 1e-12);
-        for (unsigned int i = 0; i < n_halvings; ++i)
+        std::vector<double> masses; // below the middles
+        std::vector<std::vector<PartOfMass>::iterator> middles;
+        for (Search &search : searches)
           {
-            const double middle = 0.5 * (begin + end);
-            const auto above    = std::partition(
-                between.begin(), between.end(), [middle](const PartOfMass &part) { return part.place < middle; });
-            double mass = 0.; // below the middle
-            for (auto part = between.begin(); part != above; ++part)
-              mass += part->mass;
-            mass                     = Utilities::MPI::sum(mass, communicator);
-            const bool is_above      = mass < wanted;
-            (is_above ? begin : end) = middle;
-            wanted -= is_above ? mass : 0.;
-            between.erase(is_above ? between.begin() : above, is_above ? above : between.end());
+            middles.push_back(
+                std::partition(search.parts.begin(), search.parts.end(), [&search](const PartOfMass &part) {
+                  return part.place < 0.5 * (search.begin + search.end);
+                }));
+            masses.push_back(0.);
+            for (auto part = search.parts.begin(); part != middles.back(); ++part)
+              masses.back() += part->mass;
           }
-        result.push_back(0.5 * (begin + end));
+        Utilities::MPI::sum(masses, communicator, masses);
+        for (unsigned int s = 0; s < searches.size(); ++s)
+          {
+            auto &[begin, end, wanted, own] = searches[s];
+            const bool is_above             = masses[s] < wanted;
+            (is_above ? begin : end)        = 0.5 * (begin + end);
+            wanted -= is_above ? masses[s] : 0.;
+            own.erase(is_above ? own.begin() : middles[s], is_above ? middles[s] : own.end());
+          }
       }
+    std::vector<double> result;
+    for (const Search &search : searches)
+      result.push_back(0.5 * (search.begin + search.end));
     return result;
   }
 

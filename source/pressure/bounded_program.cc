@@ -18,8 +18,7 @@ namespace scree
   template <int dim>
   void BoundedProgram<dim>::reinit(const std::shared_ptr<const Utilities::MPI::Partitioner> &partitioner)
   {
-    for (Vector *vector :
-         { &source, &solution, &remaining, &free_remaining, &preconditioned, &direction, &product, &scratch })
+    for (Vector *vector : vectors())
       vector->pressures.reinit(partitioner);
   }
 
@@ -28,8 +27,7 @@ namespace scree
   void BoundedProgram<dim>::begin(std::vector<GroundRow<dim>> *of_ground)
   {
     rows = of_ground;
-    for (Vector *vector :
-         { &source, &solution, &remaining, &free_remaining, &preconditioned, &direction, &product, &scratch })
+    for (Vector *vector : vectors())
       vector->clear(rows ? rows->size() : 0);
   }
 

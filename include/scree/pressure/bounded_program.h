@@ -5,6 +5,7 @@
 #include <scree/pressure/ground_rows.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -122,6 +123,12 @@ namespace scree
     double weight_of_rows = 1.; ///< of the squares of flows at rows against those at numbers, in norms
 
   private:
+    /// All of them, of the same shape.
+    std::array<Vector *, 8> vectors()
+    {
+      return { { &source, &solution, &remaining, &free_remaining, &preconditioned, &direction, &product, &scratch } };
+    }
+
     /// Drops what is held: pressures, and of the rows what the ground leaves free.
     void restrict_to_free(Vector &vector) const;
 
