@@ -425,7 +425,7 @@ namespace scree
       {
         Blocks blocks;
         on_all([&] { blocks = read_blocks(checkpoint); });
-        grid.refine(blocks, Shares::even);
+        grid.refine(blocks);
       }
     std::vector<std::uint64_t> n_points;
     on_all([&] { n_points = read_points(checkpoint, grid.triangulation(), sets); });

@@ -143,17 +143,12 @@ namespace scree
       , follows(follows)
       , mesh(communicator,
              Triangulation<dim>::none,
-             parallel::distributed::Triangulation<dim>::no_automatic_repartitioning)
+             static_cast<typename Mesh::Settings>(Mesh::no_automatic_repartitioning |
+                                                  Mesh::communicate_vertices_to_p4est)) // for ranks_at()
       , cells(mesh, box)
       , nodes_of_mesh(parameters.basis_kind())
-      , after_repartition(mesh.signals.post_distributed_repartition.connect([this] { cells.reinit(); }))
   {
-    const std::vector<unsigned int> n = coarse_cells(box, n_levels);
-    Point<dim> end                    = upper;
-    for (unsigned int a = 0; a < dim; ++a)
-      if (const int along = n[a] << n_levels; along != box.n[a])
-        end[a] = lower[a] + along * width;
-    GridGenerator::subdivided_hyper_rectangle(mesh, n, lower, end);
+    make_coarse_cells();
   }
 
 
@@ -174,36 +169,13 @@ namespace scree
       : BackgroundGrid(parameters, levels<dim>(parameters), parameters.is_adaptive(), communicator)
   {
     if (follows)
-      refine(with_surroundings(occupied_blocks(box, places, communicator)), Shares::even);
+      refine(with_surroundings(occupied_blocks(box, places, communicator)));
     else
       {
         mesh.refine_global(n_levels);
         cells.reinit();
       }
     distribute_nodes();
-  }
-
-
-  template <int dim>
-  void BackgroundGrid<dim>::append_blocks(const Point<dim> &x, const Tensor<1, dim> &path, Blocks &blocks) const
-  {
-    const auto block_at = [&](const Point<dim> &y) {
-      CellPlace<dim> place = box.place_near(y);
-      for (int &along : place)
-        along /= 2;
-      return curve_number<dim>(place);
-    };
-    const std::uint64_t first = block_at(x);
-    if (!blocks.empty() && blocks.back() == first)
-      return;
-    // A way that is no number, or as long as the box, has no end.
-    double length = 0;
-    for (unsigned int a = 0; a < dim; ++a)
-      length = std::max(length, std::min(std::abs(path[a]), upper[a] - lower[a]));
-    const unsigned int n = std::isfinite(path.norm()) ? static_cast<unsigned int>(length / (2. * width)) : 0;
-    for (unsigned int i = n; i > 0; --i)
-      blocks.push_back(block_at(x + double(i) / n * path));
-    blocks.push_back(first);
   }
 
 
@@ -221,45 +193,172 @@ namespace scree
   }
 
 
-  template <int dim>
-  void BackgroundGrid<dim>::refine(const Blocks &blocks, const Shares shares)
+  namespace
   {
-    for (bool is_first = true; set_flags(blocks) || is_first; is_first = false)
+    /// p4est's copy of a mesh, on its way to the next one at once: deal.II refines and coarsens by one level at a time,
+    /// and makes all cells anew each time.
+    template <int dim>
+    class Forest
+    {
+    public:
+      Forest(const parallel::distributed::Triangulation<dim> &mesh,
+             const CellsOfBox<dim> &box,
+             const unsigned int n_levels)
+          : n_levels(n_levels)
+          , forest(Functions::copy_forest(const_cast<typename Types::forest *>(mesh.get_p4est()), /* data */ false))
       {
-        mesh.execute_coarsening_and_refinement();
-        if (shares == Shares::even)
-          mesh.repartition();
+        forest->user_pointer = this;
+        for (const auto coarse_cell : mesh.get_p4est_tree_to_coarse_cell_permutation())
+          corners.push_back(box.place_of_corner(
+              typename Triangulation<dim>::cell_iterator(&mesh, 0, static_cast<int>(coarse_cell))->vertex(0)));
       }
-    for (const auto &cell : mesh.active_cell_iterators())
-      cell->clear_coarsen_flag();
+
+      Forest(const Forest &) = delete;
+
+      ~Forest()
+      {
+        Functions::destroy(forest);
+      }
+
+      /// Refines what holds a block, and coarsens all else as far as neighbours differ by one level only. Collective.
+      void refine(const Blocks &blocks)
+      {
+        wanted = &blocks;
+        Functions::coarsen(forest, /* recursive */ 1, is_coarsened, nullptr);
+        Functions::refine(forest, /* recursive */ 1, is_refined, nullptr);
+        Functions::balance(forest, all_neighbours(), nullptr);
+      }
+
+      /// Gives all ranks about as many points. Collective.
+      void share_out(PointsOfCells &&points)
+      {
+        std::sort(points.begin(), points.end());
+        n_points = std::move(points);
+        Functions::partition(forest, /* families stay whole */ 1, weight);
+      }
+
+      /// Makes these the cells of a mesh, which has the coarse cells only. Collective.
+      void load_into(parallel::distributed::Triangulation<dim> &mesh)
+      {
+        forest->connectivity = mesh.get_p4est()->connectivity;
+        mesh.load(forest);
+        mesh.signals.post_distributed_refinement(); // which load() leaves out
+      }
+
+    private:
+      using Types     = dealii::internal::p4est::types<dim>;
+      using Functions = dealii::internal::p4est::functions<dim>;
+
+      static typename Types::balance_type all_neighbours()
+      {
+        if constexpr (dim == 2)
+          return P4EST_CONNECT_FULL;
+        else
+          return P8EST_CONNECT_FULL;
+      }
+
+      static int
+      is_refined(typename Types::forest *of, const typename Types::topidx tree, typename Types::quadrant *cell)
+      {
+        return static_cast<const Forest *>(of->user_pointer)->holds_blocks(tree, *cell, cell->level);
+      }
+
+      static int
+      is_coarsened(typename Types::forest *of, const typename Types::topidx tree, typename Types::quadrant *family[])
+      {
+        return !static_cast<const Forest *>(of->user_pointer)->holds_blocks(tree, *family[0], family[0]->level - 1);
+      }
+
+      static int weight(typename Types::forest *of, const typename Types::topidx tree, typename Types::quadrant *cell)
+      {
+        constexpr int of_cell = 1, of_point = 100; // an empty cell takes memory, and time when the mesh changes
+        const auto &self = *static_cast<const Forest *>(of->user_pointer);
+        int weight       = of_cell;
+        if (static_cast<unsigned int>(cell->level) == self.n_levels && !self.n_points.empty())
+          {
+            const std::uint64_t number = curve_number<dim>(self.place_of(tree, *cell));
+            for (auto at = std::lower_bound(self.n_points.begin(), self.n_points.end(), std::make_pair(number, 0u));
+                 at != self.n_points.end() && at->first == number;
+                 ++at)
+              weight += of_point * static_cast<int>(at->second);
+          }
+        return weight;
+      }
+
+      /// Place of the lower corner of a cell, in fine cells.
+      CellPlace<dim> place_of(const typename Types::topidx tree, const typename Types::quadrant &cell) const
+      {
+        constexpr unsigned int most_levels = dim == 2 ? P4EST_MAXLEVEL : P8EST_MAXLEVEL;
+        CellPlace<dim> place               = corners[tree];
+        place[0] += cell.x >> (most_levels - n_levels);
+        place[1] += cell.y >> (most_levels - n_levels);
+        if constexpr (dim == 3)
+          place[2] += cell.z >> (most_levels - n_levels);
+        return place;
+      }
+
+      /// Whether the cell of this level with the corner of `cell` holds one of the blocks and is larger than a fine
+      /// cell.
+      bool holds_blocks(const typename Types::topidx tree,
+                        const typename Types::quadrant &cell,
+                        const unsigned int level) const
+      {
+        if (level >= n_levels)
+          return false;
+        // It is 2^s fine cells wide, hence an aligned cube of 2^(dim (s - 1)) blocks.
+        const unsigned int s       = n_levels - level;
+        const std::uint64_t number = curve_number<dim>(place_of(tree, cell)) >> (dim * s) << (dim * (s - 1));
+        return has_any(*wanted, number, std::uint64_t(1) << (dim * (s - 1)));
+      }
+
+      const unsigned int n_levels;
+      typename Types::forest *const forest;
+      std::vector<CellPlace<dim>> corners; // of the coarse cells, in the order of p4est
+      const Blocks *wanted = nullptr;
+      PointsOfCells n_points; // ascending; a cell may stand there for each set of points
+    };
+  } // namespace
+
+
+  template <int dim>
+  void BackgroundGrid<dim>::make_coarse_cells()
+  {
+    const std::vector<unsigned int> n = coarse_cells(box, n_levels);
+    Point<dim> end                    = upper;
+    for (unsigned int a = 0; a < dim; ++a)
+      if (const int along = n[a] << n_levels; along != box.n[a])
+        end[a] = lower[a] + along * width;
+    GridGenerator::subdivided_hyper_rectangle(mesh, n, lower, end);
+  }
+
+
+  template <int dim>
+  void BackgroundGrid<dim>::change(const Blocks *blocks, PointsOfCells points)
+  {
+    Forest<dim> forest(mesh, box, n_levels);
+    if (blocks != nullptr)
+      forest.refine(*blocks);
+    forest.share_out(std::move(points));
+    mesh.clear();
+    make_coarse_cells();
+    forest.load_into(mesh);
     cells.reinit();
   }
 
 
   template <int dim>
-  bool BackgroundGrid<dim>::set_flags(const Blocks &blocks)
+  void BackgroundGrid<dim>::refine(const Blocks &blocks, PointsOfCells points)
   {
-    bool refines = false;
-    for (const auto &cell : mesh.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          // A cell of this level is 2^s cells wide, hence an aligned cube of 2^(dim (s - 1)) blocks.
-          const unsigned int s     = n_levels - cell->level();
-          const CellPlace<dim> own = box.place_of_corner(cell->vertex(0));
-          const auto is_wanted     = [&](const unsigned int s) {
-            const std::uint64_t number = curve_number<dim>(own) >> (dim * s) << (dim * (s - 1));
-            return has_any(blocks, number, std::uint64_t(1) << (dim * (s - 1)));
-          };
-          if (s > 0 && is_wanted(s))
-            {
-              cell->set_refine_flag();
-              refines = true;
-            }
-          else if (cell->level() > 0 && !is_wanted(s + 1))
-            cell->set_coarsen_flag();
-        }
-    return Utilities::MPI::max(int(refines), communicator_of(mesh)) == 1;
+    change(&blocks, std::move(points));
   }
+
+
+  template <int dim>
+  void BackgroundGrid<dim>::share_out(PointsOfCells points)
+  {
+    change(nullptr, std::move(points));
+  }
+
 
   template class BackgroundGrid<2>;
   template class BackgroundGrid<3>;

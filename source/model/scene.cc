@@ -302,41 +302,40 @@ namespace scree
 
   namespace
   {
-    /// Adds the blocks on the way of a point at `x`, as long as `path`, m, in the box: straight on, but along the
-    /// ground where that is near.
+    /// Adds the block of a place `x` and those on a way of the length of `path`, m, from there in the box: straight on,
+    /// but along the ground where that is near.
+    /// @param ground may be null
     template <int dim>
     void append_way(const Point<dim> &x,
                     Tensor<1, dim> path,
-                    const LevelSet<dim> &ground,
+                    const LevelSet<dim> *ground,
                     const BackgroundGrid<dim> &grid,
                     Blocks &blocks)
     {
-      const std::size_t n_before = blocks.size();
-      grid.append_blocks(x, Tensor<1, dim>(), blocks);
+      blocks.push_back(grid.block_at(x));
       const double block = 2. * grid.cell_size(), length = path.norm();
-      if (blocks.size() == n_before || !(length > block) || !std::isfinite(length))
+      if (!(length > block) || !std::isfinite(length))
         return;
-      const std::uint64_t own = blocks.back();
-      const double reach = 1.5 * block, height = ground.view(x, reach).distance;
+      const double reach = 1.5 * block, height = ground == nullptr ? 0. : ground->view(x, reach).distance;
       const double end = std::min(length, (grid.upper_corner() - grid.lower_corner()).norm());
       Point<dim> place = x;
       path *= block / length;
       for (double way = 0.; way < end; way += block)
         {
-          Point<dim> next             = place + path;
-          const SurfaceView<dim> view = ground.view(next, reach);
-          next -= (view.distance - height) * view.normal;
-          bool is_in_box = true;
+          Point<dim> next = place + path;
+          if (ground != nullptr)
+            {
+              const SurfaceView<dim> view = ground->view(next, reach);
+              next -= (view.distance - height) * view.normal;
+            }
           for (unsigned int a = 0; a < dim; ++a)
-            is_in_box = is_in_box && next[a] > grid.lower_corner()[a] && next[a] < grid.upper_corner()[a];
-          if (!is_in_box)
-            break;
-          grid.append_blocks(next, Tensor<1, dim>(), blocks);
+            if (!(next[a] > grid.lower_corner()[a] && next[a] < grid.upper_corner()[a]))
+              return;
+          blocks.push_back(grid.block_at(next));
           path = next - place;
           path *= block / std::max(path.norm(), 1e-3 * block);
           place = next;
         }
-      blocks.push_back(own); // so that append_blocks() skips the next point of the same block
     }
   } // namespace
 
@@ -345,13 +344,15 @@ namespace scree
   Blocks Scene<dim>::blocks_of_points(const double time) const
   {
     Blocks blocks;
-    const auto append = [&](const PointSet<dim> &points, const unsigned int velocity) {
+    const LevelSet<dim> *along = ground.get();
+    const auto append          = [&](const PointSet<dim> &points, const unsigned int velocity) {
+      CellPlace<dim> last;
+      last.fill(-1);
       for_each_point(points, [&](const auto &point) {
-        const Tensor<1, dim> path = time * vector_of<dim>(point.properties + velocity);
-        if (ground)
-          append_way(point.location, path, *ground, grid, blocks);
-        else
-          grid.append_blocks(point.location, path, blocks);
+        const CellPlace<dim> cell = grid.fine_cells().box().place_near(point.location);
+        if (cell != last) // One point of a cell stands for the others.
+          append_way(point.location, time * vector_of<dim>(point.properties + velocity), along, grid, blocks);
+        last = cell;
       });
     };
     on_all_ranks(communicator, [&] { // An expression of the ground may be no number somewhere.
@@ -364,8 +365,7 @@ namespace scree
       if (inflow.is_open)
         blocks.insert(blocks.end(), inflow.blocks().begin(), inflow.blocks().end());
     for (const auto &load : loads)
-      for_each_point(load.points(),
-                     [&](const auto &point) { grid.append_blocks(point.location, Tensor<1, dim>(), blocks); });
+      for_each_point(load.points(), [&](const auto &point) { blocks.push_back(grid.block_at(point.location)); });
     make_unique(blocks);
     return blocks;
   }

@@ -64,6 +64,7 @@ namespace scree
   struct PointSet<dim>::Lifted
   {
     std::vector<std::pair<CellId::binary_type, unsigned int>> cells; // and how many points they hold
+    std::vector<Point<dim>> middles;                                 // of the cells
     std::vector<Point<dim>> locations;
     std::vector<types::particle_index> ids;
     std::vector<double> properties;
@@ -200,8 +201,7 @@ namespace scree
         MPI_Get_count(&status, MPI_CHAR, &size);
         std::vector<char> message(size);
         MPI_Recv(message.data(), size, MPI_CHAR, rank, tag, communicator, MPI_STATUS_IGNORE);
-        for (const Record &one : Utilities::unpack<std::vector<Record>>(message, /*allow_compression=*/false))
-          insert(table.number_of(mesh.create_cell_iterator(CellId(one.cell))), one.location, one.id, one.properties);
+        receive(Utilities::unpack<std::vector<Record>>(message, /*allow_compression=*/false));
       }
     MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
     emigrants.clear();
@@ -237,7 +237,9 @@ namespace scree
     for (unsigned int c = 0; c < cell_list.size(); ++c)
       {
         const CellPoints<dim> &points = cell_list[c];
-        lifted->cells.emplace_back(table[filled[c].in_table].iterator->id().template to_binary<dim>(), points.n_points);
+        const CellIterator &cell      = table[filled[c].in_table].iterator;
+        lifted->cells.emplace_back(cell->id().template to_binary<dim>(), points.n_points);
+        lifted->middles.push_back(cell->center());
         for (unsigned int p = 0; p < points.n_points; ++p)
           {
             const double *properties = points.properties_of(p);
@@ -253,30 +255,48 @@ namespace scree
 
 
   template <int dim>
-  void PointSet<dim>::put_down()
+  typename PointSet<dim>::CellIterator PointSet<dim>::active_cell(const CellId::binary_type &id,
+                                                                  const Point<dim> &x) const
+  {
+    const CellId cell_id(id);
+    auto cell = mesh.create_cell_iterator(CellId(cell_id.get_coarse_cell_id(), {}));
+    for (const auto child : cell_id.get_child_indices())
+      if (cell->has_children())
+        cell = cell->child(child);
+    while (cell->has_children())
+      {
+        unsigned int child = 0;
+        for (unsigned int a = 0; a < dim; ++a)
+          child |= (x[a] > cell->center()[a] ? 1u : 0u) << a;
+        cell = cell->child(child);
+      }
+    return cell;
+  }
+
+
+  template <int dim>
+  void PointSet<dim>::put_down(const RanksAt &ranks_at)
   {
     particle_handler.reserve(lifted->ids.size());
-    std::size_t p = 0;
-    for (const auto &[id, n_points] : lifted->cells)
-      {
-        typename Triangulation<dim>::cell_iterator parent = mesh.create_cell_iterator(CellId(id));
-        for (unsigned int i = 0; i < n_points; ++i, ++p)
-          {
-            const Point<dim> &x = lifted->locations[p];
-            auto cell           = parent;
-            while (cell->has_children())
-              {
-                unsigned int child = 0;
-                for (unsigned int a = 0; a < dim; ++a)
-                  child |= (x[a] > cell->center()[a] ? 1u : 0u) << a;
-                cell = cell->child(child);
-              }
-            const CellIterator active = cell;
-            double *properties        = lifted->properties.data() + p * n_properties;
-            insert_into(table.number_of(active), x, lifted->ids[p], ArrayView<const double>(properties, n_properties));
-          }
-      }
+    const auto ranks = ranks_at ? ranks_at(lifted->middles) : std::vector<types::subdomain_id>();
+    std::size_t p    = 0;
+    for (unsigned int c = 0; c < lifted->cells.size(); ++c)
+      for (unsigned int i = 0; i < lifted->cells[c].second; ++i, ++p)
+        {
+          const auto &id          = lifted->cells[c].first;
+          const Point<dim> &x     = lifted->locations[p];
+          const CellIterator cell = active_cell(id, x);
+          double *properties      = lifted->properties.data() + p * n_properties;
+          if (cell->is_locally_owned())
+            insert_into(table.number_of(cell), x, lifted->ids[p], ArrayView<const double>(properties, n_properties));
+          else
+            emigrants[ranks[c]].push_back({ id, x, lifted->ids[p], { properties, properties + n_properties } });
+        }
     lifted.reset();
+    if (ranks_at)
+      for (const auto &[rank, records] : Utilities::MPI::some_to_some(communicator_of(mesh), emigrants))
+        receive(records);
+    emigrants.clear();
     particle_handler.update_cached_numbers();
     n_moved = 0;
     list_all_cells();

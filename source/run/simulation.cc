@@ -345,17 +345,8 @@ namespace scree
     if (!points_at_edge)
       return;
     const TimedPart part(timer, TimerSection::repartition);
-    const Blocks blocks = blocks_ahead(time_step);
-    const auto sets     = scheme->point_sets();
-    for (PointSet<dim> *points : sets)
-      points->lift();
-    scene.grid.refine(blocks, Shares::kept);
-    for (PointSet<dim> *points : sets)
-      points->put_down();
-    if (partition.is_worth_changing_with_mesh())
-      partition.repartition([this] { reinit(); });
-    else
-      reinit();
+    partition.refine(blocks_ahead(time_step));
+    reinit();
     points_at_edge = are_points_at_edge();
     ++n_refinements;
     AssertThrow(!points_at_edge, ExcInternalError("A point is outside the fine cells."));
@@ -365,7 +356,7 @@ namespace scree
   template <int dim>
   Blocks Simulation<dim>::blocks_ahead(const double time_step) const
   {
-    constexpr double steps_ahead = 2000; // A new mesh costs about 100 steps, a cell without points memory alone.
+    constexpr double steps_ahead = 4000; // A new mesh costs 40 to 140 steps, a cell without points memory alone.
     constexpr double few_blocks  = GridParameters::least_ahead / (1 << dim);
     const auto blocks            = [this](const double time) {
       return scene.grid.with_surroundings(scene.blocks_of_points(time));

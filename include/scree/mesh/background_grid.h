@@ -57,25 +57,21 @@ namespace scree
       return n_cells() > few;
     }
 
-    /// Cells beside points that are fine, too, at least.
-    static constexpr unsigned int margin = 4;
+    /// Cells beside points and their ways that are fine, too, at least.
+    static constexpr unsigned int margin = 2;
 
     /// With more than this part of the box, all of it is made fine: that costs less than to follow the points.
     static constexpr double most_of_box = 0.5;
 
     /// Cells ahead of points that move are fine, too: so many times those around the points...
-    static constexpr double most_ahead = 2.;
+    static constexpr double most_ahead = 3.;
 
     /// ...or so many, which take less memory than the program.
     static constexpr double least_ahead = 5e4;
   };
 
-  /// What refinement does to the ranks of cells.
-  enum class Shares
-  {
-    kept, ///< cells stay with their rank
-    even  ///< all ranks get about as many
-  };
+  /// Numbers of points in fine cells of this rank, each with the number of the cell's place on the curve.
+  using PointsOfCells = std::vector<std::pair<std::uint64_t, unsigned int>>;
 
   /// The background mesh and the nodes of the velocity.
   ///
@@ -92,8 +88,7 @@ namespace scree
     /// Fine cells where points are; everywhere if the box has few cells. Collective.
     BackgroundGrid(const GridParameters &parameters, const PlacesOfPoints<dim> &places, const MPI_Comm communicator);
 
-    /// Builds the nodes for the current mesh and partition. Collective; called again after a repartition and after
-    /// refine().
+    /// Builds the nodes for the current mesh and partition. Collective; called again after refine() and share_out().
     void distribute_nodes()
     {
       nodes_of_mesh.distribute(cells);
@@ -104,9 +99,20 @@ namespace scree
     /// @param blocks of this rank, in which points are
     Blocks with_surroundings(const Blocks &blocks) const;
 
-    /// Makes the cells of these blocks fine, and others larger. Collective; no points may be on the mesh.
+    /// Makes the cells of these blocks fine, and others larger, and shares them out to the ranks. Collective; no points
+    /// may be on the mesh.
     /// @param blocks of all ranks
-    void refine(const Blocks &blocks, const Shares shares);
+    /// @param points of which all ranks are to get about as many; of none at all, as many cells
+    void refine(const Blocks &blocks, PointsOfCells points = {});
+
+    /// Shares out the same cells. Collective; no points may be on the mesh.
+    void share_out(PointsOfCells points = {});
+
+    /// Ranks of the cells around places in the mesh, of this rank or not.
+    std::vector<dealii::types::subdomain_id> ranks_at(const std::vector<dealii::Point<dim>> &places)
+    {
+      return mesh.find_point_owner_rank(places);
+    }
 
     /// This rank's blocks of fine cells.
     Blocks fine_blocks() const
@@ -125,9 +131,11 @@ namespace scree
       return follows;
     }
 
-    /// Adds the blocks on the way from `x` along `path`, m, as far as it lies in the box, if the first one is not the
-    /// last of `blocks`.
-    void append_blocks(const dealii::Point<dim> &x, const dealii::Tensor<1, dim> &path, Blocks &blocks) const;
+    /// The block of the cell of the box that is nearest to a place `x`, m.
+    std::uint64_t block_at(const dealii::Point<dim> &x) const
+    {
+      return curve_number<dim>(box.place_near(x)) >> dim;
+    }
 
     /// The cells that hold nodes.
     const FineCells<dim> &fine_cells() const
@@ -185,12 +193,6 @@ namespace scree
       return mesh;
     }
 
-    /// Write access, to repartition it.
-    dealii::parallel::distributed::Triangulation<dim> &triangulation()
-    {
-      return mesh;
-    }
-
     /// Communicator of the mesh.
     MPI_Comm communicator() const
     {
@@ -222,14 +224,19 @@ namespace scree
     }
 
   private:
+    using Mesh = dealii::parallel::distributed::Triangulation<dim>;
+
     /// Without fine cells.
     BackgroundGrid(const GridParameters &parameters,
                    const unsigned int n_levels,
                    const bool follows,
                    const MPI_Comm communicator);
 
-    /// Flags cells for the next step to these blocks; returns whether any rank refines.
-    bool set_flags(const Blocks &blocks);
+    /// Fills the empty mesh with the coarse cells.
+    void make_coarse_cells();
+
+    /// refine(), or share_out() without blocks.
+    void change(const Blocks *blocks, PointsOfCells points);
 
     const double width;
     dealii::Point<dim> lower, upper;
@@ -237,11 +244,10 @@ namespace scree
     const unsigned int n_levels; // from the coarse cells to the fine ones
     const bool follows;
 
-    dealii::parallel::distributed::Triangulation<dim> mesh;
+    Mesh mesh;
     dealii::MappingCartesian<dim> cartesian;
     FineCells<dim> cells;
     NodeNumbering<dim> nodes_of_mesh;
-    boost::signals2::scoped_connection after_repartition;
   };
 
   /// Calls `act` with the number of a cell's nodes along an axis, 2 or 3, as a constant.

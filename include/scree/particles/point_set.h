@@ -13,6 +13,7 @@
 #include <deal.II/particles/property_pool.h>
 
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -123,12 +124,16 @@ namespace scree
         update_lists();
     }
 
-    /// Takes all points off the mesh, before its cells are refined or coarsened.
+    /// Takes all points off the mesh, before its cells or their ranks change.
     void lift();
 
-    /// Puts them back on the mesh, which has cells as large as before or smaller where they were, on the same ranks.
-    /// Collective.
-    void put_down();
+    /// Ranks of the cells around these places.
+    using RanksAt = std::function<std::vector<dealii::types::subdomain_id>(const std::vector<dealii::Point<dim>> &)>;
+
+    /// Puts them back on the mesh, which has the same coarse cells and cells as large as before or smaller where points
+    /// were. Collective.
+    /// @param ranks_at needed if ranks of cells have changed
+    void put_down(const RanksAt &ranks_at = {});
 
     /// Whether one of this rank's points has got into a cell that is no CellUse::inner one, in the step before or since
     /// it was put there.
@@ -257,8 +262,19 @@ namespace scree
       emigrants[cell->subdomain_id()].push_back(record);
     }
 
-    /// Sends the points that leave, and puts in those that come. Collective.
+    /// Sends the points that leave to ranks beside this one, and puts in those that come. Collective.
     void exchange();
+
+    /// Puts in the points that have come from another rank.
+    void receive(const std::vector<Record> &records)
+    {
+      for (const Record &one : records)
+        insert(table.number_of(active_cell(one.cell, one.location)), one.location, one.id, one.properties);
+    }
+
+    /// The cell of the mesh around a place that was in a cell with this number, or this rank's larger one there if it
+    /// is another rank's.
+    CellIterator active_cell(const dealii::CellId::binary_type &id, const dealii::Point<dim> &x) const;
 
     /// Gives the handler a point of the cell with this number in the table; returns its slot.
     unsigned int insert_into(const unsigned int number,

@@ -3,7 +3,7 @@
 #define scree_run_simulation_h
 
 #include <scree/io/stop_requests.h>
-#include <scree/particles/partition.h>
+#include <scree/mesh/partition.h>
 #include <scree/run/results.h>
 
 namespace scree
@@ -95,7 +95,7 @@ namespace scree
         , timer(std::cout, dealii::TimerOutput::never, dealii::TimerOutput::wall_times)
         , scene(parameters, communicator)
         , scheme(scene.make_scheme(timer))
-        , partition(scene.grid.triangulation(), scheme->point_sets())
+        , partition(scene.grid, scheme->point_sets())
         , clock(parameters.time_step)
         , output_times(parameters.output, parameters.end_time)
         , results(scene, *scheme, folder)
@@ -262,7 +262,8 @@ namespace scree
       if (!partition.is_worth_changing())
         return;
       const TimedPart part(timer, TimerSection::repartition);
-      partition.repartition([this] { reinit(); });
+      partition.repartition();
+      reinit();
     }
 
     /// Makes cells fine around the points as they are, and where they go to, once a point has come to the edge of the

@@ -28,7 +28,7 @@ Blocks blocks_of_cubes(const BackgroundGrid<dim> &grid, const double place)
     for (unsigned int i = 0; i < unsigned(Utilities::pow(4, dim)); ++i)
       {
         const auto x = point_of<dim>([&](const unsigned int a) { return lower + ((i >> 2 * a) % 4 + 0.5) * width; });
-        grid.append_blocks(x, Tensor<1, dim>(), blocks);
+        blocks.push_back(grid.block_at(x));
       }
   make_unique(blocks);
   return blocks;
@@ -89,7 +89,7 @@ void test(const double size, const Counts &inside, const Counts &at_far_corner)
   compare(grid, inside);
   for (const double next : { size - 1. - 4 * width, place })
     {
-      grid.refine(grid.with_surroundings(blocks_of_cubes(grid, next)), Shares::even);
+      grid.refine(grid.with_surroundings(blocks_of_cubes(grid, next)));
       grid.distribute_nodes();
       compare(grid, next == place ? inside : at_far_corner);
     }
@@ -97,9 +97,9 @@ void test(const double size, const Counts &inside, const Counts &at_far_corner)
 
 const UnitTest registered("grid_fine_cells", [] {
   for (const double size : { 18.875, 37.625 })
-    test<2>(size, { 149, 59, 52, 296, 19 }, { 113, 32, 41, 221, 40 });
+    test<2>(size, { 61, 39, 25, 164, 15 }, { 61, 24, 25, 145, 32 });
   for (const double size : { 4.125, 8.875 })
-    test<3>(size, { 1343, 897, 280, 3744, 271 }, { 855, 386, 189, 2331, 602 });
+    test<3>(size, { 341, 387, 91, 1512, 169 }, { 341, 218, 91, 1241, 386 });
 });
 } // namespace test_grid_fine_cells
 

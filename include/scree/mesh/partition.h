@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef scree_particles_partition_h
-#define scree_particles_partition_h
+#ifndef scree_mesh_partition_h
+#define scree_mesh_partition_h
 
+#include <scree/mesh/background_grid.h>
 #include <scree/particles/point_set.h>
-
-#include <deal.II/distributed/tria.h>
 
 #include <functional>
 
 namespace scree
 {
   /// Which rank owns which cells: p4est cuts its curve through the cells into pieces of equal weight, here of equal
-  /// numbers of points, once the points that the fullest rank had beyond the mean outweigh what a repartition costs.
+  /// numbers of points, whenever the fine cells change, and once the points that the fullest rank had beyond the mean
+  /// outweigh what a repartition costs.
   ///
   /// It follows from the state of the run alone, so that runs on the same ranks are the same.
   template <int dim>
@@ -19,21 +19,24 @@ namespace scree
   {
   public:
     /// All sets of points that live on the mesh. Both are kept by reference.
-    Partition(dealii::parallel::distributed::Triangulation<dim> &mesh, const std::vector<PointSet<dim> *> &sets);
+    Partition(BackgroundGrid<dim> &grid, const std::vector<PointSet<dim> *> &sets);
 
     /// Whether a new partition pays before the next step: looks once in some steps. Before the first step: whether
     /// ranks hold unequal numbers of points. Collective.
     bool is_worth_changing();
 
-    /// The same where the mesh has changed, so that fitting all else costs nothing more.
-    bool is_worth_changing_with_mesh() const
+    /// Shares out cells with their points. Collective.
+    void repartition()
     {
-      return surplus > updates_worth_a_point * points.avg;
+      change_mesh([this](PointsOfCells &&points) { grid.share_out(std::move(points)); });
+      n_changes += sum_of_mean > 0.;
     }
 
-    /// Shares out cells with their points. Collective.
-    /// @param fit fits all else that lives on the mesh
-    void repartition(const std::function<void()> &fit);
+    /// The same on a mesh with these blocks of fine cells. Collective.
+    void refine(const Blocks &blocks)
+    {
+      change_mesh([&](PointsOfCells &&points) { grid.refine(blocks, std::move(points)); });
+    }
 
     /// Points of the fullest rank over the mean of all, mean of the steps.
     double imbalance() const
@@ -48,18 +51,16 @@ namespace scree
     }
 
   private:
-    // A repartition takes about 15 us a cell, mostly for deal.II's mesh, and 5 us a point; an update of a point 200 ns.
-    static constexpr double updates_worth_a_cell  = 75.;
-    static constexpr double updates_worth_a_point = 25.;
+    /// Takes the points off the mesh and puts them back on its cells after `change`. Collective.
+    void change_mesh(const std::function<void(PointsOfCells &&)> &change);
 
     /// Counts the points of the ranks. Collective.
     void count_points();
 
-    dealii::parallel::distributed::Triangulation<dim> &mesh;
+    BackgroundGrid<dim> &grid;
     const std::vector<PointSet<dim> *> sets;
     const MPI_Comm communicator;
     const unsigned int n_ranks;
-    boost::signals2::scoped_connection weight_signal;
 
     dealii::Utilities::MPI::MinMaxAvg points; // of the ranks, at the last look
     bool has_begun         = false;           // whether a look was taken before
