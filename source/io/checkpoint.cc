@@ -425,7 +425,7 @@ namespace scree
       {
         Blocks blocks;
         on_all([&] { blocks = read_blocks(checkpoint); });
-        grid.refine(blocks);
+        grid.change_cells(&blocks);
       }
     std::vector<std::uint64_t> n_points;
     on_all([&] { n_points = read_points(checkpoint, grid.triangulation(), sets); });

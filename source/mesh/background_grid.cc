@@ -169,7 +169,10 @@ namespace scree
       : BackgroundGrid(parameters, levels<dim>(parameters), parameters.is_adaptive(), communicator)
   {
     if (follows)
-      refine(with_surroundings(occupied_blocks(box, places, communicator)));
+      {
+        const Blocks blocks = with_surroundings(occupied_blocks(box, places, communicator));
+        change_cells(&blocks);
+      }
     else
       {
         mesh.refine_global(n_levels);
@@ -333,30 +336,16 @@ namespace scree
 
 
   template <int dim>
-  void BackgroundGrid<dim>::change(const Blocks *blocks, PointsOfCells points)
+  void BackgroundGrid<dim>::change_cells(const Blocks *fine, PointsOfCells points)
   {
     Forest<dim> forest(mesh, box, n_levels);
-    if (blocks != nullptr)
-      forest.refine(*blocks);
+    if (fine != nullptr)
+      forest.refine(*fine);
     forest.share_out(std::move(points));
     mesh.clear();
     make_coarse_cells();
     forest.load_into(mesh);
     cells.reinit();
-  }
-
-
-  template <int dim>
-  void BackgroundGrid<dim>::refine(const Blocks &blocks, PointsOfCells points)
-  {
-    change(&blocks, std::move(points));
-  }
-
-
-  template <int dim>
-  void BackgroundGrid<dim>::share_out(PointsOfCells points)
-  {
-    change(nullptr, std::move(points));
   }
 
 

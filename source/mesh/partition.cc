@@ -54,7 +54,7 @@ namespace scree
 
 
   template <int dim>
-  void Partition<dim>::change_mesh(const std::function<void(PointsOfCells &&)> &change)
+  void Partition<dim>::change_mesh(const Blocks *fine)
   {
     const FineCells<dim> &cells = grid.fine_cells();
     PointsOfCells n_points;
@@ -64,7 +64,7 @@ namespace scree
           n_points.emplace_back(cells.cells()[cells.of_index(points.cell)].number, points.n_points);
         set->lift();
       }
-    change(std::move(n_points));
+    grid.change_cells(fine, std::move(n_points));
     for (PointSet<dim> *set : sets)
       set->put_down([this](const auto &places) { return grid.ranks_at(places); });
     surplus = 0.;

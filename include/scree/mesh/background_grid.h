@@ -88,7 +88,7 @@ namespace scree
     /// Fine cells where points are; everywhere if the box has few cells. Collective.
     BackgroundGrid(const GridParameters &parameters, const PlacesOfPoints<dim> &places, const MPI_Comm communicator);
 
-    /// Builds the nodes for the current mesh and partition. Collective; called again after refine() and share_out().
+    /// Builds the nodes for the current mesh and partition. Collective; called again after change_cells().
     void distribute_nodes()
     {
       nodes_of_mesh.distribute(cells);
@@ -99,14 +99,11 @@ namespace scree
     /// @param blocks of this rank, in which points are
     Blocks with_surroundings(const Blocks &blocks) const;
 
-    /// Makes the cells of these blocks fine, and others larger, and shares them out to the ranks. Collective; no points
-    /// may be on the mesh.
-    /// @param blocks of all ranks
+    /// Makes the cells of some blocks fine, and others larger, and shares all cells out to the ranks. Collective; no
+    /// points may be on the mesh.
+    /// @param fine blocks of all ranks; null keeps the cells
     /// @param points of which all ranks are to get about as many; of none at all, as many cells
-    void refine(const Blocks &blocks, PointsOfCells points = {});
-
-    /// Shares out the same cells. Collective; no points may be on the mesh.
-    void share_out(PointsOfCells points = {});
+    void change_cells(const Blocks *fine, PointsOfCells points = {});
 
     /// Ranks of the cells around places in the mesh, of this rank or not.
     std::vector<dealii::types::subdomain_id> ranks_at(const std::vector<dealii::Point<dim>> &places)
@@ -234,9 +231,6 @@ namespace scree
 
     /// Fills the empty mesh with the coarse cells.
     void make_coarse_cells();
-
-    /// refine(), or share_out() without blocks.
-    void change(const Blocks *blocks, PointsOfCells points);
 
     const double width;
     dealii::Point<dim> lower, upper;

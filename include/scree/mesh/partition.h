@@ -5,8 +5,6 @@
 #include <scree/mesh/background_grid.h>
 #include <scree/particles/point_set.h>
 
-#include <functional>
-
 namespace scree
 {
   /// Which rank owns which cells: p4est cuts its curve through the cells into pieces of equal weight, here of equal
@@ -28,14 +26,14 @@ namespace scree
     /// Shares out cells with their points. Collective.
     void repartition()
     {
-      change_mesh([this](PointsOfCells &&points) { grid.share_out(std::move(points)); });
+      change_mesh(nullptr);
       n_changes += sum_of_mean > 0.;
     }
 
     /// The same on a mesh with these blocks of fine cells. Collective.
     void refine(const Blocks &blocks)
     {
-      change_mesh([&](PointsOfCells &&points) { grid.refine(blocks, std::move(points)); });
+      change_mesh(&blocks);
     }
 
     /// Points of the fullest rank over the mean of all, mean of the steps.
@@ -51,8 +49,8 @@ namespace scree
     }
 
   private:
-    /// Takes the points off the mesh and puts them back on its cells after `change`. Collective.
-    void change_mesh(const std::function<void(PointsOfCells &&)> &change);
+    /// Changes the cells of the grid with the points off the mesh. Collective.
+    void change_mesh(const Blocks *fine);
 
     /// Counts the points of the ranks. Collective.
     void count_points();

@@ -89,7 +89,8 @@ void test(const double size, const Counts &inside, const Counts &at_far_corner)
   compare(grid, inside);
   for (const double next : { size - 1. - 4 * width, place })
     {
-      grid.refine(grid.with_surroundings(blocks_of_cubes(grid, next)));
+      const Blocks blocks = grid.with_surroundings(blocks_of_cubes(grid, next));
+      grid.change_cells(&blocks);
       grid.distribute_nodes();
       compare(grid, next == place ? inside : at_far_corner);
     }

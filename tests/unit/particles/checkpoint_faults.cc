@@ -35,7 +35,7 @@ struct Run
 
   void fill()
   {
-    grid.share_out(); // a fresh grid is all on one rank
+    grid.change_cells(nullptr); // a fresh grid is all on one rank
     unsigned int id = 0;
     for (const auto &cell : grid.triangulation().active_cell_iterators())
       for (unsigned int p = 0; p < 3; ++p, ++id)
@@ -260,7 +260,7 @@ std::string fault_of_full_disk(const rlim_t n_bytes)
 {
   copy_folder("whole", "full");
   Run<2> run;
-  run.grid.share_out();
+  run.grid.change_cells(nullptr);
   run.load("full", [](const auto &) {});
   run.step();
   std::string fault;
