@@ -147,6 +147,7 @@ namespace scree
                                                   Mesh::communicate_vertices_to_p4est)) // for ranks_at()
       , cells(mesh, box)
       , nodes_of_mesh(parameters.basis_kind())
+      , vertices_of_mesh(Basis::linear)
   {
     make_coarse_cells();
   }

@@ -39,6 +39,7 @@ namespace scree
   void SolidPhase<dim>::reinit()
   {
     field.reinit();
+    transfer.reinit();
     for (auto &one : loads)
       one.reinit();
     if (nonlocal)

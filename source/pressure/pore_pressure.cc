@@ -20,7 +20,7 @@ namespace scree
       , bulk_modulus(water.bulk_modulus)
       , cavitation_pressure(parameters.cavitation_pressure)
       , timer(timer)
-      , vertices(numbered(grid))
+      , vertices(grid.vertices())
       , surface(grid, vertices, walls, cut_cells, water.air_entry_pressure)
       , part(grid, vertices, surface, cut_cells, ground_gaps)
       , pair(grid, vertices, part)
@@ -32,18 +32,8 @@ namespace scree
 
 
   template <int dim>
-  NodeNumbering<dim> PorePressure<dim>::numbered(const BackgroundGrid<dim> &grid)
-  {
-    NodeNumbering<dim> vertices(Basis::linear);
-    vertices.distribute(grid.fine_cells());
-    return vertices;
-  }
-
-
-  template <int dim>
   void PorePressure<dim>::reinit()
   {
-    vertices.distribute(grid.fine_cells());
     surface.reinit();
     pair.reinit();
     schur.reinit();

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/transfer/f_bar.h>
 
-#include <scree/simd/records.h>
-#include <scree/tensor/matrix.h>
-
 namespace scree
 {
   using namespace dealii;
@@ -12,26 +9,6 @@ namespace scree
   {
     using simd::load;
     using simd::store;
-
-    /// Of a batch of points: J_e = sqrt(det b_e) of those under stress, else 0.
-    template <int dim>
-    DEAL_II_ALWAYS_INLINE inline Batch elastic_ratio_under_stress(const MaterialPoints<dim> &points,
-                                                                  const BatchIndices &indices)
-    {
-      RecordPointers<const double> states, stresses;
-      for (unsigned int l = 0; l < batch_size; ++l)
-        {
-          const std::size_t offset = points.offset(indices[l]);
-          states[l]                = apart<const double>(points.left_cauchy_green + offset);
-          stresses[l]              = apart<const double>(points.stress + offset);
-        }
-      Batch b[n_symmetric_components<dim>], stress[3];
-      simd::load_records<n_symmetric_components<dim>>(states, b);
-      simd::load_records<3>(stresses, stress); // the normal ones
-      const Batch zero   = simd::broadcast<Batch>(0.);
-      const Batch square = stress[0] * stress[0] + stress[1] * stress[1] + stress[2] * stress[2];
-      return simd::select<Batch>(square > 0., simd::sqrt<Batch>(determinant_of_components<dim>(b)), zero);
-    }
   } // namespace
 
 

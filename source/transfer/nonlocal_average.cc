@@ -14,22 +14,13 @@ namespace scree
     {
       return std::max(0., ratio * ratio - 1. / 3.);
     }
-
-
-    template <int dim>
-    NodeNumbering<dim> corners_of(const BackgroundGrid<dim> &grid)
-    {
-      NodeNumbering<dim> corners(Basis::linear);
-      corners.distribute(grid.fine_cells());
-      return corners;
-    }
   } // namespace
 
 
   template <int dim>
   NonlocalAverage<dim>::NonlocalAverage(const BackgroundGrid<dim> &grid)
       : grid(grid)
-      , corners(corners_of(grid))
+      , corners(grid.vertices())
       , sums(corners)
       , changes(corners)
   {
@@ -39,7 +30,6 @@ namespace scree
   template <int dim>
   void NonlocalAverage<dim>::reinit()
   {
-    corners.distribute(grid.fine_cells());
     sums.reinit();
     changes.reinit();
   }

@@ -69,6 +69,7 @@ namespace scree
       , method(transfer.transfer_method())
       , pic_rate(transfer.pic_rate)
       , f_bar(stabilisation.f_bar_kind())
+      , projection(f_bar == FBar::projected ? std::make_unique<VolumeProjection<dim>>(grid) : nullptr)
   {
   }
 
@@ -135,52 +136,89 @@ namespace scree
                                           const double time_step,
                                           const double damping_time)
   {
-    const auto &cells = body.points.cells();
     const double keep = kept_velocity(method, pic_rate, time_step);
     MotionReport report;
     LargestSquare largest;
-    for (auto begin = cells.begin(), end = begin; begin != cells.end(); begin = end)
+    const auto move = [&](const Block &block, const auto &average) {
+      motion.resize(block.n_points);
+      unsigned int first = 0;
+      for (const auto *cell = block.begin; cell != block.end; first += (cell++)->n_points)
+        {
+          move_cell<n, method>(body, *cell, field, time_step, keep, first, largest);
+          average(*cell, first);
+        }
+    };
+    const auto &cells = body.points.cells();
+    const Block all{ cells.data(), cells.data() + cells.size(), 0, static_cast<unsigned int>(body.points.n_points()) };
+    if (projection) // The vertices need the motion of all points.
       {
-        unsigned int n_points = 0;
-        while (end != cells.end() && (end == begin || n_points + end->n_points <= block_size))
-          n_points += (end++)->n_points;
-        motion.resize(n_points);
-        unsigned int first = 0;
-        for (auto cell = begin; cell != end; first += (cell++)->n_points)
-          {
-            move_cell<n, method>(body, *cell, field, time_step, keep, first, largest);
-            apply_f_bar(f_bar, first, body.material_points(*cell), motion);
-          }
-        update_state(body, *begin, n_points, time_step, damping_time, report.material);
+        projection->clear(all.n_points);
+        move(all, [&](const CellPoints<dim> &cell, const unsigned int first) {
+          projection->add(body, cell, first, motion);
+        });
+        projection->fit();
       }
+    for_each_block(all, [&](Block block) {
+      if (projection)
+        {
+          unsigned int first = block.first;
+          for (const auto *cell = block.begin; cell != block.end; first += (cell++)->n_points)
+            projection->apply(*cell, first, motion);
+        }
+      else
+        {
+          block.first = 0;
+          move(block, [&](const CellPoints<dim> &cell, const unsigned int first) {
+            apply_f_bar(f_bar, first, body.material_points(cell), motion);
+          });
+        }
+      update_state(body, block, time_step, damping_time, report.material);
+    });
     report.largest_speed = largest.speed();
     return report;
   }
 
 
   template <int dim>
+  template <typename Act>
+  void Transfer<dim>::for_each_block(const Block &cells, const Act &act)
+  {
+    for (Block block{ cells.begin, cells.begin, cells.first }; block.begin != cells.end;
+         block = { block.end, block.end, block.first + block.n_points })
+      {
+        while (block.end != cells.end &&
+               (block.end == block.begin || block.n_points + block.end->n_points <= block_size))
+          block.n_points += (block.end++)->n_points;
+        act(block);
+      }
+  }
+
+
+  template <int dim>
   void Transfer<dim>::update_state(const SoilBody<dim> &body,
-                                   const CellPoints<dim> &cell,
-                                   const unsigned int n_points,
+                                   const Block &block,
                                    const double time_step,
                                    const double damping_time,
                                    UpdateReport &report)
   {
     // The slots of cells lie one behind the other.
-    auto points     = body.material_points(cell);
-    points.n_points = n_points;
-    for_each_batch(n_points, [&](const BatchIndices &indices, const unsigned int n) {
-      const unsigned int p = indices[0];
+    const CellPoints<dim> &cell = *block.begin;
+    auto points                 = body.material_points(cell);
+    points.n_points             = block.n_points;
+    for_each_batch(block.n_points, [&](const BatchIndices &indices, const unsigned int n) {
+      const unsigned int p = block.first + indices[0];
       const Batch volume   = simd::load(&motion.volume[p]) * simd::load(&motion.volume_change[p]);
-      simd::store(volume / simd::load(&motion.reference_volume[p]), &motion.volume_ratio[p]);
+      const Batch ratio    = volume / simd::load(&motion.reference_volume[p]);
+      simd::store(ratio, &motion.volume_ratio[p]);
       for (unsigned int l = 0; l < n; ++l)
-        cell.properties_of(p + l)[body.layout.volume] = volume[l];
+        cell.properties_of(indices[l])[body.layout.volume] = volume[l];
     });
+    const auto of_block = motion.material_motion(block.first, time_step, body.grain_density);
     if (body.layout.has_damping)
-      damping.begin(body, cell, n_points);
+      damping.begin(body, cell, block.n_points);
     try
       {
-        body.material->update(points, motion.material_motion(time_step, body.grain_density), report);
+        body.material->update(points, of_block, report);
       }
     catch (PointFault &fault)
       {
@@ -190,7 +228,7 @@ namespace scree
         throw;
       }
     if (body.layout.has_damping)
-      damping.finish(body, cell, n_points, motion, damping_time / time_step);
+      damping.finish(body, cell, block.n_points, of_block, damping_time / time_step);
   }
 
 

@@ -86,10 +86,12 @@ namespace scree
     prm.enter_subsection("Stabilisation");
     prm.add_parameter("F-bar",
                       f_bar,
-                      "Volume averaging over the points of a cell. none: each point uses its own volume change. "
-                      "standard: the mean volume change of the cell determines the stress. modified: in addition, the "
-                      "elastic volume strain of the points is averaged, and their volume follows the mean.",
-                      Patterns::Selection("none|standard|modified"));
+                      "Averaging of the volume change over points. projected: linear functions of the cells' vertices, "
+                      "the space of the pore pressure, carry it, and the elastic volume strain relaxes to them as far "
+                      "as the soil shears. For comparison: none, each point uses its own; standard, the mean of the "
+                      "cell determines the stress; modified, the elastic volume strain and the volume of the points "
+                      "follow the mean of the cell, too.",
+                      Patterns::Selection("projected|none|standard|modified"));
     prm.add_parameter("Skeleton damping",
                       skeleton_damping,
                       "Kelvin-Voigt damping of the elastic skeleton of soil in water, where ground or walls with "
@@ -106,7 +108,8 @@ namespace scree
   {
     static const std::map<std::string, FBar> table{ { "none", FBar::none },
                                                     { "standard", FBar::standard },
-                                                    { "modified", FBar::modified } };
+                                                    { "modified", FBar::modified },
+                                                    { "projected", FBar::projected } };
     return table.at(f_bar);
   }
 } // namespace scree

@@ -92,6 +92,7 @@ namespace scree
     void distribute_nodes()
     {
       nodes_of_mesh.distribute(cells);
+      vertices_of_mesh.distribute(cells);
     }
 
     /// The blocks of all ranks with a margin around them, or all of the box if that makes little difference.
@@ -150,6 +151,12 @@ namespace scree
     const NodeNumbering<dim> &numbering() const
     {
       return nodes_of_mesh;
+    }
+
+    /// The vertices of the fine cells: nodes of linear functions.
+    const NodeNumbering<dim> &vertices() const
+    {
+      return vertices_of_mesh;
     }
 
     /// @{
@@ -241,7 +248,7 @@ namespace scree
     Mesh mesh;
     dealii::MappingCartesian<dim> cartesian;
     FineCells<dim> cells;
-    NodeNumbering<dim> nodes_of_mesh;
+    NodeNumbering<dim> nodes_of_mesh, vertices_of_mesh;
   };
 
   /// Calls `act` with the number of a cell's nodes along an axis, 2 or 3, as a constant.

@@ -10,6 +10,33 @@ namespace scree
   /// because Debian builds deal.II's VectorizedArray with a single lane.
   using NodeRow = double __attribute__((vector_size(4 * sizeof(double))));
 
+  using EightDoubles = double __attribute__((vector_size(8 * sizeof(double)))); ///< a register of eight doubles
+
+  /// A number for each corner of a cell, in registers: numbers that are stored one by one and read as a vector wait for
+  /// each other.
+  template <int dim>
+  using VertexRow = std::conditional_t<dim == 2, NodeRow, EightDoubles>;
+
+  /// `upper` at the corners on the upper face of an axis, `lower` at the others.
+  template <int dim>
+  DEAL_II_ALWAYS_INLINE inline VertexRow<dim> on_faces(const unsigned int axis, const double lower, const double upper)
+  {
+    VertexRow<dim> row;
+    for (unsigned int v = 0; v < (1 << dim); ++v)
+      row[v] = v >> axis & 1 ? upper : lower;
+    return row;
+  }
+
+  /// The linear functions of a cell's corners at one of its points.
+  template <int dim>
+  DEAL_II_ALWAYS_INLINE inline VertexRow<dim> vertex_values(const dealii::Point<dim> &x)
+  {
+    VertexRow<dim> values = on_faces<dim>(0, 1. - x[0], x[0]);
+    for (unsigned int a = 1; a < dim; ++a)
+      values *= on_faces<dim>(a, 1. - x[a], x[a]);
+    return values;
+  }
+
   /// Four numbers that lie behind each other, on no boundary in particular.
   inline NodeRow load_row(const double *values)
   {

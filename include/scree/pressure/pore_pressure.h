@@ -25,7 +25,7 @@ namespace scree
                  const GroundGaps<dim> &ground_gaps,
                  dealii::TimerOutput &timer);
 
-    /// Fits the vertices to the grid's current partition. Collective.
+    /// Fits the vectors to the grid's current vertices. Collective.
     void reinit();
 
     /// Fits it to ground that has moved, on the mesh as it was. Collective.
@@ -134,7 +134,6 @@ namespace scree
     }
 
   private:
-    static NodeNumbering<dim> numbered(const BackgroundGrid<dim> &grid);
     void reinit_vectors();
 
     /// What a pressure gradient does to the flow in the cells.
@@ -147,7 +146,7 @@ namespace scree
     const double relative_tolerance, bulk_modulus, cavitation_pressure;
     dealii::TimerOutput &timer;
 
-    NodeNumbering<dim> vertices;
+    const NodeNumbering<dim> &vertices;
     FreeSurface<dim> surface;
     FilledPart<dim> part;
     PressurePair<dim> pair;

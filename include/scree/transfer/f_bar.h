@@ -4,6 +4,7 @@
 
 #include <scree/materials/material.h>
 #include <scree/simd/records.h>
+#include <scree/tensor/matrix.h>
 #include <scree/transfer/transfer_parameters.h>
 
 #include <vector>
@@ -36,20 +37,42 @@ namespace scree
         list->resize(pitch);
     }
 
-    /// The motion as the laws read it; valid until resize().
+    /// The motion from a point on, as the laws read it; valid until resize().
+    /// @param first number of the point
     /// @param time_step s
     /// @param grain_density kg/m^3
-    MaterialMotion<dim> material_motion(const double time_step, const double grain_density) const
+    MaterialMotion<dim>
+    material_motion(const unsigned int first, const double time_step, const double grain_density) const
     {
-      return { deformation_increment.data(),
-               out_of_plane_stretch.data(),
-               volume_ratio.data(),
-               reference_volume.data(),
+      return { &deformation_increment[first],
+               &out_of_plane_stretch[first],
+               &volume_ratio[first],
+               &reference_volume[first],
                pitch,
                time_step,
                grain_density };
     }
   };
+
+  /// Of a batch of points: J_e = sqrt(det b_e) of those under stress, else 0.
+  template <int dim>
+  DEAL_II_ALWAYS_INLINE inline Batch elastic_ratio_under_stress(const MaterialPoints<dim> &points,
+                                                                const BatchIndices &indices)
+  {
+    RecordPointers<const double> states, stresses;
+    for (unsigned int l = 0; l < batch_size; ++l)
+      {
+        const std::size_t offset = points.offset(indices[l]);
+        states[l]                = apart<const double>(points.left_cauchy_green + offset);
+        stresses[l]              = apart<const double>(points.stress + offset);
+      }
+    Batch b[n_symmetric_components<dim>], stress[3];
+    simd::load_records<n_symmetric_components<dim>>(states, b);
+    simd::load_records<3>(stresses, stress); // the normal ones
+    const Batch zero   = simd::broadcast<Batch>(0.);
+    const Batch square = stress[0] * stress[0] + stress[1] * stress[1] + stress[2] * stress[2];
+    return simd::select<Batch>(square > 0., simd::sqrt<Batch>(determinant_of_components<dim>(b)), zero);
+  }
 
   /// Cell averages against volumetric locking, on the motion of one cell's points.
   ///

@@ -4,7 +4,8 @@
 
 #include <scree/bodies/phases.h>
 #include <scree/mesh/background_grid.h>
-#include <scree/transfer/water_transfer.h>
+#include <scree/mesh/node_rows.h>
+#include <scree/mesh/node_values.h>
 
 namespace scree
 {
@@ -20,10 +21,10 @@ namespace scree
   class NonlocalAverage
   {
   public:
-    /// Numbers the corners. Keeps a reference to the grid.
+    /// Keeps a reference to the grid.
     explicit NonlocalAverage(const BackgroundGrid<dim> &grid);
 
-    /// Fits the corners to the grid's current partition. Collective.
+    /// Fits the sums to the grid's current vertices. Collective.
     void reinit();
 
     /// Sets the variable at all points of the body, which are sorted. Collective.
@@ -41,7 +42,7 @@ namespace scree
     void set_points(PointSet<dim> &points, const unsigned int from, const unsigned int to) const;
 
     const BackgroundGrid<dim> &grid;
-    NodeNumbering<dim> corners;
+    const NodeNumbering<dim> &corners;
     NodeValues<dim, 2> sums, changes;
   };
 } // namespace scree

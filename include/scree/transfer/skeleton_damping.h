@@ -32,7 +32,7 @@ namespace scree
     void finish(const SoilBody<dim> &body,
                 const CellPoints<dim> &cell,
                 const unsigned int n_points,
-                const BlockMotion<dim> &motion,
+                const MaterialMotion<dim> &motion,
                 const double rate) const
     {
       for (unsigned int p = 0; p < n_points; ++p)
@@ -43,12 +43,12 @@ namespace scree
           for (unsigned int c = 0; c < n; ++c)
             damping[c] = rate * (now[c] - old[c]);
           // W sigma - sigma W, with W dt the skew part of dF
-          const auto stress = matrix_of_components<dim>(old);
+          const auto stress    = matrix_of_components<dim>(old);
+          const auto increment = motion.deformation_increment_of(p);
           double spin[dim][dim], turn[dim][dim] = {};
           for (unsigned int i = 0; i < dim; ++i)
             for (unsigned int j = 0; j < dim; ++j)
-              spin[i][j] = 0.5 * (motion.deformation_increment[(i * dim + j) * motion.pitch + p] -
-                                  motion.deformation_increment[(j * dim + i) * motion.pitch + p]);
+              spin[i][j] = 0.5 * (increment[i][j] - increment[j][i]);
           for (unsigned int i = 0; i < dim; ++i)
             for (unsigned int j = 0; j < dim; ++j)
               for (unsigned int k = 0; k < dim; ++k)

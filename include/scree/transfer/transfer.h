@@ -8,7 +8,9 @@
 #include <scree/transfer/f_bar.h>
 #include <scree/transfer/skeleton_damping.h>
 #include <scree/transfer/transfer_parameters.h>
+#include <scree/transfer/volume_projection.h>
 
+#include <memory>
 #include <vector>
 
 namespace scree
@@ -30,13 +32,20 @@ namespace scree
              const TransferParameters &transfer,
              const StabilisationParameters &stabilisation);
 
+    /// Fits what is kept of the grid to its current partition. Collective.
+    void reinit()
+    {
+      if (projection)
+        projection->reinit();
+    }
+
     /// Activates the nodes of the body's cells and adds mass, momentum and internal force of this rank's points:
     /// lumped mass sum m phi_i, momentum sum m phi_i (v + C (x_i - x)) with C = 0 for FLIP, force -sum V sigma grad
     /// phi_i.
     void to_grid(const SoilBody<dim> &body, NodalField<dim> &field) const;
 
-    /// One pass over the cells: velocity, position, volume, F-bar, stress and state of the points at the end of a step
-    /// of `time_step` s, from the nodes' end-of-step velocity and its change. The points are not sorted yet.
+    /// Velocity, position, volume, F-bar, stress and state of the points at the end of a step of `time_step` s, from
+    /// the nodes' end-of-step velocity and its change. The points are not sorted yet. Collective.
     /// @param damping_time of the skeleton, s; read if the points have a stress of damping
     MotionReport to_points(SoilBody<dim> &body,
                            const NodalField<dim> &field,
@@ -64,22 +73,34 @@ namespace scree
                    const unsigned int first,
                    LargestSquare &largest);
 
-    /// Volume, stress and state of a block of points, of which `cell` is the first one, from `motion`. Throws a
-    /// PointFault with its name if a point is deformed too much in a step.
+    /// Cells one behind the other.
+    struct Block
+    {
+      const CellPoints<dim> *begin, *end;
+      unsigned int first    = 0; // point in `motion`
+      unsigned int n_points = 0;
+    };
+
+    /// Calls `act` with the blocks of some cells, which have at most `block_size` points, unless a cell has more.
+    template <typename Act>
+    static void for_each_block(const Block &cells, const Act &act);
+
+    /// Volume, stress and state of a block of points from `motion`. Throws a PointFault with its name if a point is
+    /// deformed too much in a step.
     void update_state(const SoilBody<dim> &body,
-                      const CellPoints<dim> &cell,
-                      const unsigned int n_points,
+                      const Block &block,
                       const double time_step,
                       const double damping_time,
                       UpdateReport &report);
 
-    /// Points whose stress is updated in one go, unless a cell has more.
+    /// Points whose stress is updated in one go.
     static constexpr unsigned int block_size = 128;
 
     const BackgroundGrid<dim> &grid;
     const TransferMethod method;
     const double pic_rate;
     const FBar f_bar;
+    std::unique_ptr<VolumeProjection<dim>> projection; // with FBar::projected
     SkeletonDamping<dim> damping;
     BlockMotion<dim> motion; // of the points at hand; kept for its memory
   };

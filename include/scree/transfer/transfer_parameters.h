@@ -50,7 +50,8 @@ namespace scree
   {
     none,
     standard, ///< the cell's mean volume change drives the material (@source{coombs2018})
-    modified  ///< and stored elastic volume strain and volume follow the cell's mean (after @source{xie2024})
+    modified, ///< and stored elastic volume strain and volume follow the cell's mean (after @source{xie2024})
+    projected ///< volume change by linear functions of the vertices, see VolumeProjection
   };
 
   /// Subsection Transfer.
@@ -99,7 +100,7 @@ namespace scree
   /// Subsection Stabilisation.
   struct StabilisationParameters
   {
-    std::string f_bar       = "modified"; ///< none | standard | modified
+    std::string f_bar       = "projected"; ///< projected | none | standard | modified
     double skeleton_damping = 0.5;        ///< damping time over cell size per wave speed, see SkeletonDamping
 
     /// Declares the subsection and its entries.

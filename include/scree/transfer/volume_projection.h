@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef scree_transfer_volume_projection_h
+#define scree_transfer_volume_projection_h
+
+#include <scree/bodies/phases.h>
+#include <scree/mesh/node_rows.h>
+#include <scree/mesh/node_values.h>
+#include <scree/transfer/f_bar.h>
+
+namespace scree
+{
+  /// Volume change of the points under stress in the space of the pore pressure, the linear functions psi_a of the
+  /// cells' vertices, against volumetric locking and oscillation of the stress:
+  ///
+  ///   dJ_p = (sum_a psi_a m_a) exp(-r_p),   r_p = sum_a c_a psi_a (ln J_e,p - l_a(x_p)),   c_a = 1 - exp(-k gamma_a),
+  ///
+  /// in which m_a is the mean of the points' own dJ about the vertex with the weights V psi_a, l_a the linear function
+  /// that fits ln J_e there by least squares with the same weights, and gamma_a the mean shear of the step. So elastic
+  /// volume strain relaxes to what linear functions carry, as far as the soil shears. The volume of a point changes by
+  /// dJ_p, and V/J_e stays that of the point.
+  ///
+  /// sum V dJ is that of the own dJ, sum V r is 0, linear fields pass unchanged and the stored energy does not grow
+  /// (doc/theory/single_phase.md). Points without stress (separated grains) keep their own dJ and take no part.
+  template <int dim>
+  class VolumeProjection
+  {
+  public:
+    /// Keeps a reference to the grid.
+    explicit VolumeProjection(const BackgroundGrid<dim> &grid)
+        : grid(grid)
+        , sums(grid.vertices())
+    {
+    }
+
+    /// Fits the sums to the grid's current vertices. Collective.
+    void reinit()
+    {
+      sums.reinit();
+    }
+
+    /// Empties the sums, before the points of a body.
+    void clear(const unsigned int n_points)
+    {
+      sums.clear();
+      elastic_strain.resize(n_points + batch_size);
+    }
+
+    /// Adds the points of a cell, as they are at the start of the step but for their motion.
+    /// @param first of the cell's points in `motion`
+    void add(const SoilBody<dim> &body,
+             const CellPoints<dim> &cell,
+             const unsigned int first,
+             const BlockMotion<dim> &motion);
+
+    /// Fits the linear functions to the sums of all ranks. Collective.
+    void fit();
+
+    /// Sets dJ of the points of a cell and scales their dF.
+    /// @param first of the cell's points in `motion`
+    void apply(const CellPoints<dim> &cell, const unsigned int first, BlockMotion<dim> &motion) const;
+
+  private:
+    static constexpr unsigned int n_vertices = 1 << dim, n_terms = 1 + dim, n_moments = n_terms * (n_terms + 1) / 2;
+
+    // Sums at a vertex, weighted with V psi_a: products of 1 and the distance from the vertex in cells; these times
+    // ln J_e; dJ; shear.
+    static constexpr unsigned int volume = 0, strain = n_moments, change = strain + n_terms, shear = change + 1,
+                                  n_sums = shear + 1;
+
+    // After fit(), in their place: mean of dJ, c_a, c_a times value and slope of the linear function.
+    static constexpr unsigned int mean_change = 0, relaxed = 1, linear = 2, n_fits = linear + n_terms;
+
+    const BackgroundGrid<dim> &grid;
+    NodeValues<dim, n_sums> sums;
+    std::vector<double> elastic_strain; // ln J_e at the start of the step, as in `motion`; not a number without stress
+  };
+} // namespace scree
+
+#endif
