@@ -43,6 +43,29 @@ namespace scree
       const Batch twice = 0.5 * (square - trace * trace * (1. / 3.));
       return simd::sqrt<Batch>(simd::max<Batch>(twice, simd::broadcast<Batch>(0.)));
     }
+
+    /// Lanes v to v + 3 of rows k to k + 3: a row for each lane.
+    template <typename Rows>
+    DEAL_II_ALWAYS_INLINE inline std::array<NodeRow, 4>
+    transposed(const Rows &rows, const unsigned int k, [[maybe_unused]] const unsigned int v)
+    {
+      const auto four = [&](const unsigned int i) DEAL_II_ALWAYS_INLINE {
+        const auto &row = rows[k + i];
+        if constexpr (sizeof(row) == sizeof(NodeRow))
+          return row;
+        else
+          return v == 0 ? __builtin_shufflevector(row, row, 0, 1, 2, 3) : __builtin_shufflevector(row, row, 4, 5, 6, 7);
+      };
+      const NodeRow row[4] = { four(0), four(1), four(2), four(3) };
+      const NodeRow a      = __builtin_shufflevector(row[0], row[1], 0, 4, 2, 6);
+      const NodeRow b      = __builtin_shufflevector(row[0], row[1], 1, 5, 3, 7);
+      const NodeRow c      = __builtin_shufflevector(row[2], row[3], 0, 4, 2, 6);
+      const NodeRow d      = __builtin_shufflevector(row[2], row[3], 1, 5, 3, 7);
+      return { { __builtin_shufflevector(a, c, 0, 1, 4, 5),
+                 __builtin_shufflevector(b, d, 0, 1, 4, 5),
+                 __builtin_shufflevector(a, c, 2, 3, 6, 7),
+                 __builtin_shufflevector(b, d, 2, 3, 6, 7) } };
+    }
   } // namespace
 
 
@@ -52,52 +75,67 @@ namespace scree
                                   const unsigned int first,
                                   const BlockMotion<dim> &motion)
   {
-    const auto points              = body.material_points(cell);
-    VertexRow<dim> of_cell[n_sums] = {};
-    for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n) {
+    const auto points = body.material_points(cell);
+    std::array<VertexRow<dim>, n_sums> rows;
+#pragma GCC unroll 16 // here and below, so that the rows are registers
+    for (auto &row : rows)
+      row = VertexRow<dim>{};
+    for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n) DEAL_II_ALWAYS_INLINE {
       const unsigned int p  = first + indices[0];
-      const Batch ratio     = elastic_ratio_under_stress(points, indices);
-      const auto has_stress = ratio > 0.;
+      const Batch square    = elastic_square_under_stress(points, indices);
+      const auto has_stress = square > 0.;
       const Batch zero = simd::broadcast<Batch>(0.), one = simd::broadcast<Batch>(1.);
-      const Batch own    = simd::log<Batch>(simd::select<Batch>(has_stress, ratio, one));
-      const Batch weight = simd::select<Batch>(has_stress, load(&motion.volume[p]), zero);
+      const Batch own = 0.5 * simd::log<Batch>(simd::select<Batch>(has_stress, square, one));
       store(simd::select<Batch>(has_stress, own, simd::broadcast<Batch>(std::numeric_limits<double>::quiet_NaN())),
             &elastic_strain[p]);
       Batch increment[dim * dim];
+#pragma GCC unroll 9
       for (unsigned int c = 0; c < dim * dim; ++c)
         increment[c] = load(&motion.deformation_increment[c * motion.pitch + p]);
-      const Batch own_change = load(&motion.volume_change[p]), own_shear = shear_of<dim>(increment);
+      std::array<double, batch_size> weights, strains, changes, shears;
+      store(simd::select<Batch>(has_stress, load(&motion.volume[p]), zero), weights.data());
+      store(own, strains.data());
+      store(load(&motion.volume_change[p]), changes.data());
+      store(shear_of<dim>(increment), shears.data());
 
       for (unsigned int l = 0; l < n; ++l)
         {
           const Point<dim> &x = cell.reference_location_of(indices[l]);
-          std::array<VertexRow<dim>, dim> distance;
+          std::array<VertexRow<dim>, n_terms> distance, terms; // the former from 1 on
+          terms[0] = weights[l] * vertex_values(x);
+#pragma GCC unroll 3
           for (unsigned int a = 0; a < dim; ++a)
-            distance[a] = on_faces<dim>(a, x[a], x[a] - 1.);
-          std::array<VertexRow<dim>, n_terms> weights;
-          weights[0] = weight[l] * vertex_values(x);
-          for (unsigned int a = 0; a < dim; ++a)
-            weights[1 + a] = weights[0] * distance[a];
+            {
+              distance[1 + a] = x[a] - on_faces<dim>(a, 0., 1.);
+              terms[1 + a]    = terms[0] * distance[1 + a];
+            }
+#pragma GCC unroll 4
           for (unsigned int i = 0; i < n_terms; ++i)
             {
-              of_cell[volume + i] += weights[i];
-              of_cell[strain + i] += weights[i] * own[l];
+              rows[volume + i] += terms[i];
+              rows[strain + i] += terms[i] * strains[l];
             }
-          for (unsigned int i = 0, k = n_terms; i < dim; ++i)
-            for (unsigned int j = i; j < dim; ++j, ++k)
-              of_cell[volume + k] += weights[1 + i] * distance[j];
-          of_cell[change] += weights[0] * own_change[l];
-          of_cell[shear] += weights[0] * own_shear[l];
+          unsigned int k = n_terms;
+#pragma GCC unroll 3
+          for (unsigned int i = 1; i < n_terms; ++i)
+#pragma GCC unroll 3
+            for (unsigned int j = i; j < n_terms; ++j, ++k)
+              rows[volume + k] += terms[i] * distance[j];
+          rows[change] += terms[0] * changes[l];
+          rows[shear] += terms[0] * shears[l];
         }
     });
     sums.activate_cell(cell.cell);
     const unsigned int *vertices = grid.vertices().nodes(cell.cell);
-    for (unsigned int v = 0; v < n_vertices; ++v)
-      {
-        double *sum = sums[vertices[v]];
-        for (unsigned int k = 0; k < n_sums; ++k)
-          sum[k] += of_cell[k][v];
-      }
+#pragma GCC unroll 4
+    for (unsigned int k = 0; k < n_sums; k += 4)
+#pragma GCC unroll 2
+      for (unsigned int v = 0; v < n_vertices; v += 4)
+        {
+          const auto fours = transposed(rows, k, v);
+          for (unsigned int i = 0; i < 4; ++i)
+            add_row(fours[i], sums[vertices[v + i]] + k);
+        }
   }
 
 
@@ -159,6 +197,8 @@ namespace scree
     for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n) {
       const unsigned int p = first + indices[0];
       RecordPointers<const double> places;
+      for (const unsigned int point : indices)
+        cell.prefetch_after(point);
       for (unsigned int l = 0; l < batch_size; ++l)
         places[l] = apart(&cell.reference_location_of(indices[l])[0]);
       Batch x[dim];

@@ -54,10 +54,10 @@ namespace scree
     }
   };
 
-  /// Of a batch of points: J_e = sqrt(det b_e) of those under stress, else 0.
+  /// Of a batch of points: J_e^2 = det b_e of those under stress, else 0.
   template <int dim>
-  DEAL_II_ALWAYS_INLINE inline Batch elastic_ratio_under_stress(const MaterialPoints<dim> &points,
-                                                                const BatchIndices &indices)
+  DEAL_II_ALWAYS_INLINE inline Batch elastic_square_under_stress(const MaterialPoints<dim> &points,
+                                                                 const BatchIndices &indices)
   {
     RecordPointers<const double> states, stresses;
     for (unsigned int l = 0; l < batch_size; ++l)
@@ -71,7 +71,7 @@ namespace scree
     simd::load_records<3>(stresses, stress); // the normal ones
     const Batch zero   = simd::broadcast<Batch>(0.);
     const Batch square = stress[0] * stress[0] + stress[1] * stress[1] + stress[2] * stress[2];
-    return simd::select<Batch>(square > 0., simd::sqrt<Batch>(determinant_of_components<dim>(b)), zero);
+    return simd::select<Batch>(square > 0., determinant_of_components<dim>(b), zero);
   }
 
   /// Cell averages against volumetric locking, on the motion of one cell's points.

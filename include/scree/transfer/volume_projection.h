@@ -63,9 +63,9 @@ namespace scree
     static constexpr unsigned int n_vertices = 1 << dim, n_terms = 1 + dim, n_moments = n_terms * (n_terms + 1) / 2;
 
     // Sums at a vertex, weighted with V psi_a: products of 1 and the distance from the vertex in cells; these times
-    // ln J_e; dJ; shear.
+    // ln J_e; dJ; shear. Filled up to fours.
     static constexpr unsigned int volume = 0, strain = n_moments, change = strain + n_terms, shear = change + 1,
-                                  n_sums = shear + 1;
+                                  n_sums = (shear + 4) / 4 * 4;
 
     // After fit(), in their place: mean of dJ, c_a, c_a times value and slope of the linear function.
     static constexpr unsigned int mean_change = 0, relaxed = 1, linear = 2, n_fits = linear + n_terms;
