@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The time step of dry soil in 2D, in the order of doc/theory/single_phase.md: a reference for readers.
 
-Case: prm/columns/mohr_coulomb_collapse.prm, a column of Mohr-Coulomb soil without cohesion and dilation on a fixed base; FLIP, modified F-bar.
+Case: prm/columns/mohr_coulomb_collapse.prm, a column of Mohr-Coulomb soil without cohesion and dilation on a fixed base; FLIP, projected F-bar.
 Left out: bed, obstacles, contact of bodies, loads, settling, and the other transfers and laws.
 `python3 doc/theory/dry_step.py` prints results over time; `dry_step.py PICTURE results/mohr_coulomb_collapse/statistics.csv` draws them beside those
 of the program. The scene tests/scenes/reference_scenes.py compares both.
@@ -58,13 +58,24 @@ def hold(v, v_free, at):
         v[closes, a] = (1 if side else -1)*gap[closes]/TIME_STEP
 
 
-def f_bar(soil, at, dF):
-    """Modified F-bar: one trial elastic volume ratio in a cell. The scale of dF, also along the third axis, and the change of volume."""
-    change = np.linalg.det(dF)
-    ratio = np.sqrt(soil.b.prod(1) - soil.b_xy**2*soil.b[:, 2])  # J_e
-    is_loaded = (soil.stress**2).sum(1) > 0
-    volume, unloaded = (np.bincount(at.number, np.where(is_loaded, soil.V*one, 0), CELLS.prod())[at.number] for one in (change, 1/ratio))
-    averaged = np.where(is_loaded, volume/np.where(is_loaded, unloaded, 1)/ratio, change)
+def f_bar(at, n_cells, h, V, strain, is_loaded, dF):
+    """Projected F-bar, with the elastic volume strain ln J_e of the points. The scale of dF, also along the third axis, and the change of volume."""
+    change, green = np.linalg.det(dF), (dF.transpose(0, 2, 1)@dF - np.eye(2))/2
+    shear = np.sqrt(2*((green**2).sum((1, 2)) - np.trace(green, axis1=1, axis2=2)**2/3))
+    vertex = (at.number + at.number//n_cells)[:, None] + [0, 1, n_cells + 1, n_cells + 2]
+    away = at.place[:, None] - [[0, 0], [1, 0], [0, 1], [1, 1]]  # from the vertices, in cells, [point, 4 vertices, axis]
+    psi = (1 - abs(away)).prod(2)
+    weight = psi*np.where(is_loaded, V, 0)[:, None]
+    sums = lambda values: np.bincount(vertex.ravel(), (weight*values).ravel())[vertex]
+    volume = np.maximum(sums(1), 1e-300)
+    mean = lambda values: sums(values)/volume  # about the vertices
+    axes, deviation = range(2), strain[:, None] - mean(strain[:, None])
+    away = away - np.stack([mean(away[..., a]) for a in axes], 2)  # from the centre of the points about a vertex
+    variance = np.stack([np.stack([mean(away[..., a]*away[..., b]) for b in axes], 2) for a in axes], 3)
+    least = (.002 + .2*np.maximum(0, 1 - 2*volume/h**2)**2)[..., None, None]*np.eye(2)
+    slope = np.linalg.solve(variance + least, np.stack([mean(away[..., a]*deviation) for a in axes], 2)[..., None])[..., 0]
+    rest = psi*(1 - np.exp(-100*mean(shear[:, None])))*(deviation - (slope*away).sum(2))
+    averaged = np.where(is_loaded, (psi*mean(change[:, None])).sum(1)*np.exp(-rest.sum(1)), change)
     return np.cbrt(averaged/change), averaged
 
 
@@ -122,7 +133,8 @@ def step(soil):
     soil.v = kept*(soil.v + change) + (1 - kept)*v_bar
     soil.x = soil.x + TIME_STEP*v_bar
     dF = np.eye(2) + TIME_STEP*L
-    scale, change_of_volume = f_bar(soil, at, dF)
+    strain = np.log(soil.b.prod(1) - soil.b_xy**2*soil.b[:, 2])/2  # ln J_e
+    scale, change_of_volume = f_bar(at, CELLS[0], H, soil.V, strain, (soil.stress**2).sum(1) > 0, dF)
     soil.V = soil.V*change_of_volume
     update_stress(soil, dF, scale)
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The time step of soil and water in 2D, in the order of "Pressure step" in doc/theory/two_phases.md: a reference for readers.
 
-Case: a column of water collapses over elastic soil, which is saturated up to a water table. Double-point water, AFLIP, no F-bar.
+Case: a column of water collapses over elastic soil, which is saturated up to a water table. Double-point water, AFLIP, projected F-bar.
 Left out: rigid ground, contact, gaps at walls, drained walls, suction, rain, cavitation, viscosity, bulk modulus, volume correction.
 Matrices are dense and S is solved directly. Phases are soil and water, in this order; [node, component] tells what an array runs over.
 `python3 doc/theory/wet_step.py` prints results over time. The scene tests/scenes/reference_scenes.py compares them with those of the program."""
@@ -9,6 +9,7 @@ Matrices are dense and S is solved directly. Phases are soil and water, in this 
 from types import SimpleNamespace
 
 import numpy as np
+from dry_step import f_bar
 
 H, CELLS, PER_CELL = 0.1, np.array([10, 9]), 4  # cell size, m; cells and points of a cell along each axis
 SOIL_HEIGHT, WATER_TABLE, COLUMN_WIDTH, COLUMN_HEIGHT = 0.275, 0.175, 0.325, 0.725  # m
@@ -38,7 +39,7 @@ def shapes(x, cell=None):
             np.put_along_axis(axes[a][-1], cell[:, [a]] + np.arange(len(functions)), np.transpose(functions), 1)
     both = lambda of_x, of_y: (axes[1][of_y][:, :, None]*axes[0][of_x][:, None]).reshape(len(x), -1)
     return SimpleNamespace(phi=both(0, 0), slopes=(both(1, 0), both(0, 1)), psi=both(2, 2), psi_slopes=(both(3, 2), both(2, 3)),
-                           twist=H*H*both(3, 3), x=x, number=cell@[1, CELLS[0]])
+                           twist=H*H*both(3, 3), x=x, place=x/H - cell, number=cell@[1, CELLS[0]])
 
 
 def pores(soil, s, w):
@@ -166,10 +167,14 @@ def step(soil, water):
         is_smaller = (np.linalg.det(points.dF) > 0) & (np.linalg.norm(carried, axis=(1, 2)) < np.linalg.norm(L, axis=(1, 2)))
         points.C = np.where(is_smaller[:, None, None], carried, L)
     water.p, water.dp = w.psi@p, np.stack([slope@p for slope in w.psi_slopes], 1)
-    # Soil: tau = 2 G eps + lambda tr(eps) I of the logarithmic strain eps of b_e; in plane strain b_e,zz = 1.
-    soil.b, soil.V = soil.dF@soil.b@soil.dF.transpose(0, 2, 1), soil.V*np.linalg.det(soil.dF)
+    # Soil: tau = 2 G eps + lambda tr(eps) I of the logarithmic strain eps of b_e; F-bar scales the third axis, too.
+    strain, is_loaded = np.log(np.linalg.det(soil.b)*soil.b_zz)/2, (np.einsum("pii->pi", soil.stress)**2).sum(1) > 0
+    scale, change_of_volume = f_bar(s, CELLS[0], H, soil.V, strain, is_loaded, soil.dF)
+    dF, soil.V, soil.b_zz = scale[:, None, None]*soil.dF, soil.V*change_of_volume, soil.b_zz*scale**2
+    soil.b = dF@soil.b@dF.transpose(0, 2, 1)
     squares, axes = np.linalg.eigh(soil.b)
-    tau = YOUNG/(1 + POISSON)/2*(np.log(squares) + POISSON/(1 - 2*POISSON)*np.log(squares).sum(1, keepdims=True))
+    volume = np.log(squares).sum(1, keepdims=True) + np.log(soil.b_zz)[:, None]
+    tau = YOUNG/(1 + POISSON)/2*(np.log(squares) + POISSON/(1 - 2*POISSON)*volume)
     soil.stress = (axes*tau[:, None])@axes.transpose(0, 2, 1)*(soil.V0/soil.V)[:, None, None]
 
 
@@ -180,7 +185,7 @@ def start():
     points = [SimpleNamespace(x=x[x[:, 1] < SOIL_HEIGHT]), SimpleNamespace(x=x[is_wet])]
     for one, density, share in zip(points, (GRAIN_DENSITY*(1 - POROSITY), WATER_DENSITY), (1, POROSITY)):
         one.V = one.V0 = (H/PER_CELL)**2*np.where(one.x[:, 1] < SOIL_HEIGHT, share, 1)
-        one.m, one.v, one.p, one.dp = density*one.V, 0*one.x, 0*one.V, 0*one.x
+        one.m, one.v, one.p, one.dp, one.b_zz = density*one.V, 0*one.x, 0*one.V, 0*one.x, 1 + 0*one.V
         one.C, one.stress, one.b = (factor*np.eye(2) + 0*one.V[:, None, None] for factor in (0, 0, 1))
     return points
 

@@ -34,7 +34,7 @@ def wet_step(scree):
     table = run(scree, "seepage/saturated_rest", "wet_step", {
         "End time": STEPS*reference.TIME_STEP, "Gravity": f"0, {-reference.GRAVITY}",
         "Mesh/Upper corner": "{}, {}".format(*reference.H*reference.CELLS), "Mesh/Cell size": reference.H,
-        "Time step/Maximum time step": reference.TIME_STEP, "Stabilisation/F-bar": "none",
+        "Time step/Maximum time step": reference.TIME_STEP, "Stabilisation/F-bar": "projected",
         "Soil/Region": f"y < {reference.SOIL_HEIGHT}", "Soil/Points per cell": reference.PER_CELL,
         "Soil/Grain density": reference.GRAIN_DENSITY, "Soil/Initial porosity": reference.POROSITY,
         "Soil/Linear elastic/Young's modulus": reference.YOUNG, "Soil/Linear elastic/Poisson's ratio": reference.POISSON, **NO_STRESS,

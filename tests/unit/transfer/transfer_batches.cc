@@ -14,6 +14,9 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <array>
+#include <map>
+
 #include "../materials/one_point.h"
 
 namespace test_transfer_batches
@@ -77,19 +80,31 @@ Reference<dim> moved(const CellPoints<dim> &cell,
 }
 
 
-/// F-bar of a cell's points.
+/// J_e of a point under stress, else 0.
+template <int dim>
+double elastic_ratio(const PropertyLayout<dim> &layout, const Reference<dim> &point)
+{
+  const double *stress = &point.properties[layout.stress];
+  const bool has_none  = stress[0] == 0. && stress[1] == 0. && stress[2] == 0.;
+  return has_none ? 0. : std::sqrt(determinant_of_components<dim>(&point.properties[layout.left_cauchy_green]));
+}
+
+
+template <int dim>
+void scale(Reference<dim> &point, const double change)
+{
+  point.stretch = std::cbrt(change / point.volume_change);
+  point.increment *= point.stretch;
+}
+
+
+/// F-bar of a cell's points by means of the cell.
 template <int dim>
 void average(const std::string &f_bar, const PropertyLayout<dim> &layout, std::vector<Reference<dim>> &points)
 {
-  if (f_bar == "none")
-    return;
-  // J_e of a point that takes part in the means, else 0; the standard one does not read it.
+  // The standard one reads no strain.
   const auto ratio = [&](const Reference<dim> &point) {
-    if (f_bar == "standard")
-      return 1.;
-    const double *stress = &point.properties[layout.stress];
-    const bool has_none  = stress[0] == 0. && stress[1] == 0. && stress[2] == 0.;
-    return has_none ? 0. : std::sqrt(determinant_of_components<dim>(&point.properties[layout.left_cauchy_green]));
+    return f_bar == "standard" ? 1. : elastic_ratio(layout, point);
   };
   double volume = 0, unloaded = 0;
   for (const auto &point : points)
@@ -102,11 +117,89 @@ void average(const std::string &f_bar, const PropertyLayout<dim> &layout, std::v
     {
       const double J_e    = ratio(point);
       const double change = J_e > 0 ? volume / unloaded / J_e : point.volume_change;
-      point.stretch       = std::cbrt(change / point.volume_change);
-      point.increment *= point.stretch;
+      scale(point, change);
       if (f_bar == "modified")
         point.volume_change = change;
     }
+}
+
+
+/// What a vertex of the cells sees of the points around it.
+template <int dim>
+struct Vertex
+{
+  double volume = 0, change = 0, shear = 0, strain = 0;
+  Tensor<1, dim> distance, strain_times_distance;
+  Tensor<2, dim> square_of_distance;
+
+  /// ln J_e less the linear function of the vertex, times the part of it that relaxes.
+  double excess(const double own, const Tensor<1, dim> &from_vertex, const double full) const
+  {
+    const double mean           = strain / volume;
+    const Tensor<1, dim> centre = distance / volume;
+    const double lack           = std::max(0., 1. - 2. * volume / full);
+    const Tensor<2, dim> one    = unit_symmetric_tensor<dim>();
+    const Tensor<2, dim> variance =
+        square_of_distance / volume - outer_product(centre, centre) + (0.002 + 0.2 * lack * lack) * one;
+    const Tensor<1, dim> slope = invert(variance) * (strain_times_distance / volume - mean * centre);
+    return (1. - std::exp(-100. * shear / volume)) * (own - mean - slope * (from_vertex - centre));
+  }
+};
+
+
+/// F-bar of all points by linear functions of the cells' vertices, of which one is the origin.
+template <int dim>
+void project(const std::vector<CellPoints<dim>> &cells,
+             const double cell_size,
+             const PropertyLayout<dim> &layout,
+             std::vector<std::vector<Reference<dim>>> &points)
+{
+  std::map<std::array<long, dim>, Vertex<dim>> vertices;
+  const auto for_each_vertex = [&](const auto &act) { // around each point under stress
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      for (unsigned int p = 0; p < cells[c].n_points; ++p)
+        if (const double J_e = elastic_ratio(layout, points[c][p]); J_e > 0)
+          for (unsigned int v = 0; v < 1 << dim; ++v)
+            {
+              const Point<dim> &x = cells[c].reference_location_of(p);
+              std::array<long, dim> key;
+              Tensor<1, dim> distance;
+              double psi = 1;
+              for (unsigned int a = 0; a < dim; ++a)
+                {
+                  const unsigned int side = v >> a & 1;
+                  key[a]                  = std::lround(cells[c].location_of(p)[a] / cell_size - x[a]) + side;
+                  distance[a]             = x[a] - side;
+                  psi *= 1. - std::abs(distance[a]);
+                }
+              act(points[c][p], v, std::log(J_e), psi, distance, vertices[key]);
+            }
+  };
+
+  for_each_vertex([&](const auto &point, const unsigned int, const double own, const double psi, auto x, auto &vertex) {
+    const Tensor<2, dim> green =
+        0.5 * (transpose(point.increment) * point.increment - Tensor<2, dim>(unit_symmetric_tensor<dim>()));
+    const double shear  = std::sqrt(2. * (green.norm_square() - trace(green) * trace(green) / 3.)); // plane strain
+    const double weight = psi * point.properties[layout.volume];
+    vertex.volume += weight;
+    vertex.change += weight * point.volume_change;
+    vertex.shear += weight * shear;
+    vertex.strain += weight * own;
+    vertex.distance += weight * x;
+    vertex.strain_times_distance += weight * own * x;
+    vertex.square_of_distance += weight * outer_product(x, x);
+  });
+
+  double change = 0, rest = 0;
+  for_each_vertex([&](auto &point, const unsigned int v, const double own, const double psi, auto x, auto &vertex) {
+    change = (v == 0 ? 0 : change) + psi * vertex.change / vertex.volume;
+    rest   = (v == 0 ? 0 : rest) + psi * vertex.excess(own, x, Utilities::fixed_power<dim>(cell_size));
+    if (v + 1 < 1 << dim)
+      return;
+    change *= std::exp(-rest);
+    scale(point, change);
+    point.volume_change = change;
+  });
 }
 
 
@@ -190,13 +283,17 @@ std::vector<std::vector<Reference<dim>>> reference_step(const SoilBody<dim> &bod
         points.push_back(moved(cell, p, grid, field, body.layout, method));
       for (const auto &point : points)
         visited.points_without_stress += point.properties[body.layout.stress] == 0.;
-      average(f_bar, body.layout, points);
-      for (auto &point : points)
-        update(one_by_one, body.layout, point, visited.report);
+      if (f_bar == "standard" || f_bar == "modified")
+        average(f_bar, body.layout, points);
       visited.cells_of_one_point += cell.n_points == 1;
       visited.partial_batches += cell.n_points % batch_size != 0;
       expected.push_back(points);
     }
+  if (f_bar == "projected")
+    project(cells, grid.cell_size(), body.layout, expected);
+  for (auto &points : expected)
+    for (auto &point : points)
+      update(one_by_one, body.layout, point, visited.report);
   return expected;
 }
 
@@ -286,8 +383,8 @@ void test_all(RandomNumbers &random)
       Visited visited;
       for (const std::string method : { "FLIP", "TPIC", "AFLIP" })
         for (const std::string basis : { "spline", "linear" })
-          for (const std::string f_bar : { "none", "standard", "modified" })
-            if (basis == "spline" || f_bar == "modified")
+          for (const std::string f_bar : { "none", "standard", "modified", "projected" })
+            if (basis == "spline" || f_bar == "projected")
               test<dim>(basis, method, f_bar, law, random, visited);
       // The scene must reach what it is for.
       const UpdateReport &report = visited.report;

@@ -11,7 +11,7 @@ import numpy as np
 
 DEFAULTS = "defaults"
 # The options that studies compare, by their names: what stands in parentheses is the value of the entries.
-OPTIONS = {"(linear)": ["Mesh/Basis"], "(single)-point": ["Water/Point sets"], "(no|standard|modified) F-bar": ["Stabilisation/F-bar"],
+OPTIONS = {"(linear)": ["Mesh/Basis"], "(single)-point": ["Water/Point sets"], "(no|standard|modified|projected) F-bar": ["Stabilisation/F-bar"],
            "(FLIP)": ["Transfer/Method"], r"PIC rate ([\d.]+)": ["Transfer/PIC rate"], r"Courant number ([\d.]+)": ["Time step/Courant number"],
            r"tolerance ([-\de]+)": ["Water/Pressure/Relative tolerance"], r"(\d) x \1 points": ["Soil/Points per cell", "Water/Points per cell"]}
 
