@@ -81,7 +81,8 @@ namespace scree
                                 const double time_step,
                                 const double keep,
                                 const unsigned int first,
-                                LargestSquare &largest)
+                                LargestSquare &largest,
+                                MotionSums<dim, Batch> &sums)
   {
     using Layout         = PropertyLayout<dim>;
     const OpenKnots open = grid.open_knots(cell.cell);
@@ -107,6 +108,17 @@ namespace scree
         }
       for (unsigned int c = 0; c < dim; ++c)
         location[c] += time_step * at_points.velocity[c];
+      Batch affine_square = simd::broadcast<Batch>(0.), place[dim];
+      if constexpr (method == TransferMethod::aflip)
+        {
+          for (unsigned int a = 0; a < dim; ++a)
+            place[a] = shape.x[a] + time_step / grid.cell_size() * at_points.velocity[a];
+          affine_square = square_of_affine<dim, n, Batch>(affine, place, open, grid.cell_size());
+        }
+      sums.add(simd::select<Batch>(simd::first_lanes(n_used), own[Layout::mass], simd::broadcast<Batch>(0.)),
+               own,
+               location,
+               affine_square);
       simd::store_records<dim>(own, points.slots_at(Layout::velocity));
       simd::store_records<dim>(location, points.locations);
       if constexpr (carries_affine(method))
@@ -130,15 +142,16 @@ namespace scree
 
   template <int dim>
   template <int n, TransferMethod method>
-  MotionReport Transfer<dim>::move_points(SoilBody<dim> &body,
-                                          const NodalField<dim> &field,
-                                          const double time_step,
-                                          const double damping_time)
+  MotionReport<dim> Transfer<dim>::move_points(SoilBody<dim> &body,
+                                               const NodalField<dim> &field,
+                                               const double time_step,
+                                               const double damping_time)
   {
     const auto &cells = body.points.cells();
     const double keep = kept_velocity(method, pic_rate, time_step);
-    MotionReport report;
+    MotionReport<dim> report;
     LargestSquare largest;
+    MotionSums<dim, Batch> sums;
     for (auto begin = cells.begin(), end = begin; begin != cells.end(); begin = end)
       {
         unsigned int n_points = 0;
@@ -148,12 +161,13 @@ namespace scree
         unsigned int first = 0;
         for (auto cell = begin; cell != end; first += (cell++)->n_points)
           {
-            move_cell<n, method>(body, *cell, field, time_step, keep, first, largest);
+            move_cell<n, method>(body, *cell, field, time_step, keep, first, largest, sums);
             apply_f_bar(f_bar, first, body.material_points(*cell), motion);
           }
         update_state(body, *begin, n_points, time_step, damping_time, report.material);
       }
     report.largest_speed = largest.speed();
+    report.sums          = sums.of_lanes();
     return report;
   }
 
@@ -195,10 +209,10 @@ namespace scree
 
 
   template <int dim>
-  MotionReport Transfer<dim>::to_points(SoilBody<dim> &body,
-                                        const NodalField<dim> &field,
-                                        const double time_step,
-                                        const double damping_time)
+  MotionReport<dim> Transfer<dim>::to_points(SoilBody<dim> &body,
+                                             const NodalField<dim> &field,
+                                             const double time_step,
+                                             const double damping_time)
   {
     return with_nodes_1d(grid, [&](auto n) {
       return with_method(

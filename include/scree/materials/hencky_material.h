@@ -48,6 +48,13 @@ namespace scree
       frame.compose({ { factor * stress[0], factor * stress[1], factor * stress[2] } }, components);
     }
 
+    /// Stored energy, J per m^3 of reference volume.
+    template <typename Law>
+    DEAL_II_ALWAYS_INLINE inline Number energy(const Law &law, const simd::Mask<Number> &) const
+    {
+      return energy_of<Number>(law, strain);
+    }
+
     /// Kirchhoff stress times the change of strain, J per m^3 of reference volume.
     Number dissipation() const
     {
@@ -110,6 +117,17 @@ namespace scree
       const Number mean = factor * found.mean_stress, slope = factor * found.stress_factor;
       for (unsigned int c = 0; c < 6; ++c)
         components[c] = c < 3 ? mean + slope * this->deviator[c] : slope * this->deviator[c];
+    }
+
+    /// Stored energy, J per m^3 of reference volume.
+    /// @param is_plastic where the strain has been returned
+    template <typename Law>
+    DEAL_II_ALWAYS_INLINE inline Number energy(const Law &law, const simd::Mask<Number> &is_plastic) const
+    {
+      const Number square = found.deviator_factor * found.deviator_factor * this->square;
+      return law.energy(StrainInvariants<Number>{ simd::select<Number>(is_plastic, found.volume_strain, this->volume),
+                                                  simd::select<Number>(is_plastic, square, this->square),
+                                                  simd::broadcast<Number>(0.) });
     }
 
     /// Kirchhoff stress times the change of strain, J per m^3 of reference volume.
@@ -196,15 +214,11 @@ namespace scree
     }
     double elastic_energy(const double *left_cauchy_green) const override
     {
-      return law.energy(strain_of(left_cauchy_green));
+      return energy_of<double>(law, strain_of(left_cauchy_green));
     }
     Batch elastic_energies(const Batch *left_cauchy_green) const override
     {
-      const PrincipalNumbers<Batch> strain = log_strain(PrincipalFrame<dim, Batch>(left_cauchy_green).values());
-      Batch energies;
-      for (unsigned int lane = 0; lane < batch_size; ++lane)
-        energies[lane] = law.energy({ { strain[0][lane], strain[1][lane], strain[2][lane] } });
-      return energies;
+      return energy_of<Batch>(law, log_strain(PrincipalFrame<dim, Batch>(left_cauchy_green).values()));
     }
     void initialise(const double *wanted_stress,
                     double *left_cauchy_green,
@@ -422,7 +436,7 @@ namespace scree
       const Number part = 1. / n_parts, inverse_ratio = 1. / lanes.volume_ratio;
 
       const auto count = [&](const Mask &mask) { return __builtin_popcount(simd::bits_of(mask) & used); };
-      Number stress[n_components], dissipation = zero;
+      Number stress[n_components], dissipation = zero, energy = zero;
       Mask is_separated{}, was_plastic{};
       for (unsigned int k = 0; k == 0 || (in_parts && simd::any(is_served & (n_parts > double(k)))); ++k)
         {
@@ -461,12 +475,14 @@ namespace scree
           if (!in_parts || k == 0)
             {
               state.compose_stress(inverse_ratio, stress);
+              energy = state.energy(law, response.is_plastic);
               std::copy_n(b, n_components, lanes.left_cauchy_green);
             }
           else
             {
               Number now[n_components];
               state.compose_stress(inverse_ratio, now);
+              energy = simd::select<Number>(is_active, state.energy(law, response.is_plastic), energy);
               for (unsigned int c = 0; c < n_components; ++c)
                 {
                   lanes.left_cauchy_green[c] = simd::select<Number>(is_active, b[c], lanes.left_cauchy_green[c]);
@@ -492,6 +508,16 @@ namespace scree
         {
           write<n_components>(lanes.left_cauchy_green, indices, stored, points, points.left_cauchy_green);
           write<n_components>(stress, indices, stored, points, points.stress);
+          Number work = dim == 2 ? stress[2] * (lanes.stretch - 1.) : zero;
+          for (unsigned int i = 0, c = 3; i < dim; ++i)
+            {
+              work += stress[i] * change[i * (dim + 1)];
+              for (unsigned int j = i + 1; j < dim; ++j)
+                work += stress[c++] * (change[i * dim + j] + change[j * dim + i]);
+            }
+          energy = lanes.reference_volume * (energy - 0.5 * lanes.volume_ratio * work);
+          for (unsigned int bits = stored; bits != 0; bits &= bits - 1)
+            report.elastic_energy += simd::lane(energy, __builtin_ctz(bits));
         }
       report.n_substeps += __builtin_popcount(stored);
       if constexpr (in_parts)
