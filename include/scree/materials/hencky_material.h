@@ -181,30 +181,33 @@ namespace scree
       UpdateReport own;                                       // The compiler keeps it in registers.
       own.largest_bulk_modulus = report.largest_bulk_modulus; // so that few batches have larger ones
       own.largest_compression  = report.largest_compression;
+      Batch energies           = simd::broadcast<Batch>(0.);
       for (unsigned int first = 0; first < points.n_points; first += List::capacity)
         {
           List returns, cut, others;
           for_each_batch(std::min(points.n_points - first, List::capacity), [&](auto indices, const unsigned int n) {
             for (unsigned int &index : indices)
               index += first;
-            const Left left = advance<State<Batch>, Batch, false>(indices, n, points, motion, own);
+            const Left left = advance<State<Batch>, Batch, false>(indices, n, points, motion, own, energies);
             if (left.all == 0)
               return;
             returns.append(indices, left.all & ~left.cut);
             cut.append(indices, left.cut);
           });
           if constexpr (Law::leaves_returns)
-            advance_list<State<Gathered>>(returns, others, points, motion, own);
-          advance_list<State<Gathered>>(cut, others, points, motion, own);
+            advance_list<State<Gathered>>(returns, others, points, motion, own, energies);
+          advance_list<State<Gathered>>(cut, others, points, motion, own, energies);
           if constexpr (Law::in_invariants && dim == 3)
             {
               const List far = std::exchange(others, List());
-              advance_list<PrincipalState<dim, Gathered>>(far, others, points, motion, own);
+              advance_list<PrincipalState<dim, Gathered>>(far, others, points, motion, own, energies);
             }
           if (others.size > 0)
             throw_refusal(others.points[0], motion);
         }
       own.n_updates = points.n_points;
+      for (unsigned int lane = 0; lane < batch_size; ++lane)
+        own.elastic_energy += energies[lane];
       report.add(own);
     }
 
@@ -386,18 +389,20 @@ namespace scree
       unsigned int all, cut; // cut: those that need sub-steps
     };
 
-    /// Advances points of a list in parts, one at least; those that it leaves are added to `rest`.
+    /// Advances points of a list in parts, one at least; those that it leaves are added to `rest`, their elastic
+    /// energies of the middle of the step, J, to `energies`, lane by lane.
     template <typename PointState>
     DEAL_II_ALWAYS_INLINE inline void advance_list(const List &list,
                                                    List &rest,
                                                    const MaterialPoints<dim> &points,
                                                    const MaterialMotion<dim> &motion,
-                                                   UpdateReport &report) const
+                                                   UpdateReport &report,
+                                                   Batch &energies) const
     {
       for_each_group<simd::n_lanes<Gathered>>(list.size, [&](auto places, const unsigned int n) {
         for (unsigned int &place : places)
           place = list.points[place];
-        rest.append(places, advance<PointState, Gathered, true>(places, n, points, motion, report).all);
+        rest.append(places, advance<PointState, Gathered, true>(places, n, points, motion, report, energies).all);
       });
     }
 
@@ -407,7 +412,8 @@ namespace scree
                                               const unsigned int n,
                                               const MaterialPoints<dim> &points,
                                               const MaterialMotion<dim> &motion,
-                                              UpdateReport &report) const
+                                              UpdateReport &report,
+                                              Batch &energies) const
     {
       using Mask             = simd::Mask<Number>;
       constexpr bool returns = n_internal > 0 && (in_parts || !Law::leaves_returns);
@@ -516,8 +522,12 @@ namespace scree
                 work += stress[c++] * (change[i * dim + j] + change[j * dim + i]);
             }
           energy = lanes.reference_volume * (energy - 0.5 * lanes.volume_ratio * work);
-          for (unsigned int bits = stored; bits != 0; bits &= bits - 1)
-            report.elastic_energy += simd::lane(energy, __builtin_ctz(bits));
+          for (unsigned int h = 0; h < simd::n_lanes<Number> / batch_size; ++h)
+            if (const unsigned int all = (1u << batch_size) - 1, own = stored >> h * batch_size & all; own == all)
+              energies += simd::half(energy, h);
+            else
+              for (unsigned int bits = own; bits != 0; bits &= bits - 1)
+                energies[__builtin_ctz(bits)] += simd::half(energy, h)[__builtin_ctz(bits)];
         }
       report.n_substeps += __builtin_popcount(stored);
       if constexpr (in_parts)

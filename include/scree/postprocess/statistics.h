@@ -181,8 +181,8 @@ namespace scree
     const BalanceStart<dim> &start;       ///< of the run
     const double mass_scaling;            ///< see BodyForces
     const dealii::Tensor<1, dim> gravity; ///< m/s^2
-    const MovingSums<dim> sums;           ///< now; before a step is over with the elastic energy of the start
-    const RunBalance<dim> totals;         ///< since the start
+    const MovingSums<dim> &sums;          ///< now; before a step is over with the elastic energy of the start
+    const RunBalance<dim> &totals;        ///< since the start
     const double time;                    ///< s
     const double time_step;               ///< s; 0 before the first step
 

@@ -102,10 +102,12 @@ namespace scree
         write_picture(state);
     }
 
-    /// Compares the balances at the end of a step with those of the start.
+    /// Compares the balances at the end of a step with those of the start, once that has its row.
     /// @param sums of all ranks, as the next one
     void watch(const MovingSums<dim> &sums, const RunBalance<dim> &totals, const double time, const double time_step)
     {
+      if (!balances.has_looked())
+        return;
       BalanceStart<dim> &start             = statistics.start();
       const dealii::Tensor<1, dim> gravity = scene.forcing.gravity();
       const double mass_scaling            = scene.forcing.mass_scaling();

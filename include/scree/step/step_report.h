@@ -24,6 +24,7 @@ namespace scree
     template <class T>
     explicit NumbersOf(T &object)
     {
+      list.reserve(128); // more than most have
       object.serialize(*this, 0);
     }
 
