@@ -191,8 +191,9 @@ def start():
 
 
 def kinetic_energy(*phases):
-    """J; with that of the affine field, whose inertia is m h^2/4."""
-    return sum((points.m*((points.v**2).sum(1) + H*H/4*(points.C**2).sum((1, 2)))).sum()/2 for points in phases)
+    """J; with that of the affine field, whose inertia along an axis is m h^2/4, and falls to 0 on a wall."""
+    inertia = lambda x: H*H/4*(1 - np.maximum(1 - x/H, 0)**2 - np.maximum(x/H - CELLS + 1, 0)**2)
+    return sum((points.m*((points.v**2).sum(1) + ((points.C**2).sum(1)*inertia(points.x)).sum(1))).sum()/2 for points in phases)
 
 
 if __name__ == "__main__":

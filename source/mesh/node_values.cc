@@ -202,7 +202,7 @@ namespace scree
   template class NodeValues<2, 6>;
   template class NodeValues<3, 6>;
   template class NodeValues<3, 7>;
-  template class NodeValues<2, 8>; // normals to choose from, between bodies
+  template class NodeValues<2, 8>;  // normals to choose from, between bodies
   template class NodeValues<2, 12>; // fits of the elastic volume strain, see VolumeProjection
   template class NodeValues<3, 11>;
   template class NodeValues<3, 16>;

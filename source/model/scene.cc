@@ -171,7 +171,7 @@ namespace scree
   {
     // The one place that depends on whose points carry the water.
     const bool affine      = parameters.transfer.carries_affine_field();
-    const double inertia   = parameters.transfer.affine_inertia(grid.cell_size());
+    const bool with_energy = parameters.transfer.has_affine_energy();
     const bool water_rides = parameters.has_water && parameters.water.point_sets_kind() == PointSets::single_point;
     for (const BodyParameters &body : parameters.bodies)
       {
@@ -188,10 +188,10 @@ namespace scree
                             layout,
                             grid.triangulation(),
                             grid.mapping());
-        bodies.back().is_rigid       = body.is_rigid();
-        bodies.back().group          = groups.of_body[bodies.size() - 1];
-        bodies.back().spacing        = grid.cell_size() / body.seeding.points_per_cell;
-        bodies.back().affine_inertia = inertia;
+        bodies.back().is_rigid          = body.is_rigid();
+        bodies.back().group             = groups.of_body[bodies.size() - 1];
+        bodies.back().spacing           = grid.cell_size() / body.seeding.points_per_cell;
+        bodies.back().has_affine_energy = with_energy;
         if (parameters.has_water)
           bodies.back().drag.emplace(body.drag_law(parameters.water));
         if (water_rides)
@@ -200,7 +200,7 @@ namespace scree
     if (parameters.has_water && !water_rides)
       water.emplace_back(parameters.water.density, affine, grid.triangulation(), grid.mapping());
     for (auto &part : water)
-      part.affine_inertia = inertia;
+      part.has_affine_energy = with_energy;
   }
 
 
@@ -406,6 +406,7 @@ namespace scree
                           const PressureOfCell<dim> &pressure,
                           RunBalance<dim> &totals)
   {
+    const Tensor<1, dim> before = totals.entered_momentum;
     for (const Inflow<dim> &inflow : inflows)
       if (inflow.water_share > 0.)
         totals.entered_energy += time_step * inflow.power_of_pressure(pressure);
@@ -441,6 +442,8 @@ namespace scree
         }
     if (rain)
       let_rain(time, time_step, pressure, totals);
+    // As at the start of a run: the velocity is that of half a step before the place.
+    totals.entered_energy += 0.5 * time_step * (forcing.gravity() * (totals.entered_momentum - before));
   }
 
 

@@ -88,11 +88,12 @@ namespace scree
     for (auto &body : bodies)
       if (moves(body))
         {
-          const MotionReport motion = transfer.to_points(body, field, time_step, damping_time);
+          const MotionReport<dim> motion = transfer.to_points(body, field, time_step, damping_time);
           report.speeds.include_wave(
               body.wave_speed(motion.material.largest_bulk_modulus, motion.material.largest_compression));
           report.speeds.include_point(motion.largest_speed);
           report.material.add(motion.material);
+          report.soil += motion.sums;
           report.n_updates += motion.material.n_updates;
         }
     for (auto &one : loads)

@@ -432,6 +432,30 @@ namespace scree
 
 
   template <int dim>
+  void TwoPhaseMomentum<dim>::count_pressure_work(const MixtureNodes<dim> &nodes,
+                                                  PorePressure<dim> &pressure,
+                                                  const double time_step,
+                                                  Budget<dim> &balance) const
+  {
+    if (!pressure.prescribes_values())
+      return;
+    const FlowField<dim> &of_flow = pressure.prescribed_impulses(time_step);
+    for (const PressedNode<dim> &pressed : pressure.pressed_nodes.all)
+      {
+        const unsigned int node    = pressed.node;
+        SoilAndWater<dim> impulses = PressedNodes<dim>::forces(pressed, of_flow[node]);
+        impulses.soil /= nodes.pores[node][PoreField<dim>::pressed_soil];
+        impulses.water /= nodes.pores[node][PoreField<dim>::pressed_water];
+        const double *of_soil = nodes.soil[node], *of_water = nodes.water[node];
+        const SoilAndWater<dim> sums{ velocity_at_start<dim>(of_soil) + vector_of<dim>(of_soil + Field<dim>::velocity),
+                                      velocity_at_start<dim>(of_water) +
+                                          vector_of<dim>(of_water + Field<dim>::velocity) };
+        balance.pressure_work += 0.5 * work_of(impulses, sums);
+      }
+  }
+
+
+  template <int dim>
   void TwoPhaseMomentum<dim>::push(const MixtureNodes<dim> &nodes,
                                    const unsigned int node,
                                    const SoilAndWater<dim> &impulses,

@@ -316,16 +316,21 @@ namespace scree
 
     constexpr double bound_of_motion = 1e-3; // doc/theory/single_phase.md
 
-    /// The larger one; what is no number is largest.
-    double worse(const double so_far, const double value)
+    /// Takes a value if it is larger than the worst so far, with its time, s; what is no number is largest.
+    /// @return whether it was
+    bool take_worse(const double value, const double time, double &worst, double &time_of_worst)
     {
-      return value <= so_far ? so_far : std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+      if (value <= worst)
+        return false;
+      worst         = std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+      time_of_worst = time;
+      return true;
     }
   } // namespace
 
 
   template <int dim>
-  void BalanceChecks<dim>::look(const Snapshot<dim> &now)
+  void BalanceChecks<dim>::look(const BalanceState<dim> &now)
   {
     const RunBalance<dim> &totals = now.totals;
     const Budget<dim> &balance    = totals.balance;
@@ -343,42 +348,25 @@ namespace scree
       }
     const auto look_at_mass = [&](const double start, const double mass, const double lost, const double entered) {
       if (const double all = start + entered; all > 0.)
-        mass_error = worse(mass_error, std::abs(mass + lost - entered - start) / all);
+        take_worse(std::abs(mass + lost - entered - start) / all, now.time, mass_error, mass_time);
     };
     look_at_mass(soil_mass, now.sums.moving_mass, totals.lost_mass, totals.entered_mass);
     look_at_mass(water_mass, now.sums.water_mass, totals.lost_water_mass, totals.entered_water_mass);
 
-    momentum_residual    = worse(momentum_residual, now.momentum_residual());
+    take_worse(now.momentum_residual(), now.time, momentum_residual, momentum_time);
     const double inertia = mass_scaling * (now.sums.moving_mass + now.sums.water_mass); // kg
     momentum_scale       = std::max({ momentum_scale, balance.body_impulse.norm(), std::sqrt(2. * inertia * kinetic) });
 
     least_potential = std::min(least_potential, own_potential);
-    largest_work =
-        std::max(largest_work, std::abs(balance.load_work + balance.correction_work + balance.obstacle_energy()));
-    dissipation = now.numerical_dissipation();
-    // What a channel gives back is a gain, too: the numerical dissipation does not show it. Plastic dissipation is
-    // left out: with hardening it can fall. So are walls with an inflow: they push what enters.
-    const bool has_entered = totals.entered_mass + totals.entered_water_mass > 0.;
-    std::vector<std::pair<std::string, double>> channels{ { "", dissipation },
-                                                          { ", of the walls",
-                                                            has_entered ? 0. : balance.wall_dissipation },
-                                                          { ", of the bed", balance.bed_dissipation },
-                                                          { ", of contact", balance.contact_dissipation },
-                                                          { ", of drag", balance.drag_dissipation },
-                                                          { ", of viscosity", balance.viscous_dissipation } };
-    for (unsigned int o = 0; o < balance.obstacles.size(); ++o)
-      channels.emplace_back(", of obstacle " + std::to_string(o + 1), balance.obstacles[o].dissipation);
-    largest_dissipations.resize(channels.size(), -std::numeric_limits<double>::infinity());
-    for (unsigned int c = 0; c < channels.size(); ++c)
-      {
-        const auto &[channel, value] = channels[c];
-        largest_dissipations[c]      = std::max(largest_dissipations[c], value);
-        if (const double with_channel = worse(gain, largest_dissipations[c] - value); with_channel > gain)
-          {
-            gain         = with_channel;
-            gain_channel = channel;
-          }
-      }
+    largest_work    = std::max(
+        largest_work,
+        std::abs(balance.load_work + balance.correction_work + balance.pressure_work + balance.obstacle_energy()));
+    dissipation         = now.numerical_dissipation();
+    largest_dissipation = std::max(largest_dissipation, dissipation);
+    take_worse(largest_dissipation - dissipation, now.time, gain, gain_time);
+    // Impulses of one step act at the mean of its velocities, so that only the sum over some steps is of a channel.
+    if (n_looks++ % steps_between == 0)
+      look_at_channels(totals, now.time);
 
     const double work_now = start_potential - own_potential + balance.load_work + balance.obstacle_energy();
     work_in_time += 0.5 * (work + work_now) * (now.time - last_time);
@@ -389,22 +377,54 @@ namespace scree
 
 
   template <int dim>
+  void BalanceChecks<dim>::look_at_channels(const RunBalance<dim> &totals, const double time)
+  {
+    // What a channel gives back is a gain, too: the numerical dissipation does not show it. Plastic dissipation is
+    // left out: with hardening it can fall. So are walls with an inflow: they push what enters.
+    const Budget<dim> &balance = totals.balance;
+    const bool has_entered     = totals.entered_mass + totals.entered_water_mass > 0.;
+    std::vector<std::pair<std::string, double>> channels{ { "the walls", has_entered ? 0. : balance.wall_dissipation },
+                                                          { "the bed", balance.bed_dissipation },
+                                                          { "contact", balance.contact_dissipation },
+                                                          { "drag", balance.drag_dissipation },
+                                                          { "viscosity", balance.viscous_dissipation } };
+    for (unsigned int o = 0; o < balance.obstacles.size(); ++o)
+      channels.emplace_back("obstacle " + std::to_string(o + 1), balance.obstacles[o].dissipation);
+    largest_of_channels.resize(channels.size(), -std::numeric_limits<double>::infinity());
+    for (unsigned int c = 0; c < channels.size(); ++c)
+      {
+        const auto &[channel, value] = channels[c];
+        largest_of_channels[c]       = std::max(largest_of_channels[c], value);
+        if (take_worse(largest_of_channels[c] - value, time, channel_gain, channel_time))
+          worst_channel = channel;
+      }
+  }
+
+
+  template <int dim>
   std::vector<CheckResult> BalanceChecks<dim>::results() const
   {
     std::vector<CheckResult> list;
     if (!has_start)
       return list;
-    const auto add = [&](const std::string &name, const double error, const double bound) {
-      list.push_back({ name + short_text(error), short_text(bound), error > bound });
+    const auto add = [&](const std::string &name, const double error, const double bound, const double time) {
+      const std::string at = error > bound ? ", t = " + short_text(time) + " s" : "";
+      list.push_back({ name + short_text(error) + at, short_text(bound), error > bound });
     };
-    add("mass balance ", mass_error, bound_of_mass);
+    add("mass balance ", mass_error, bound_of_mass, mass_time);
     if (momentum_scale > 0.)
-      add("momentum balance ", momentum_residual / momentum_scale, bound_of_momentum);
+      add("momentum balance ", momentum_residual / momentum_scale, bound_of_momentum, momentum_time);
     if (const double released = released_energy(); energy_is_closed && released > 0.)
       {
-        list.push_back({ "largest energy gain " + short_text(100. * gain / released) + " %" + gain_channel,
-                         short_text(100. * bound_of_gain) + " %",
-                         gain > bound_of_gain * released });
+        const auto add_gain = [&](const std::string &name, const double found, const double time) {
+          list.push_back({ name + short_text(100. * found / released) + " %" +
+                               (found > 0. ? ", t = " + short_text(time) + " s" : ""),
+                           short_text(100. * bound_of_gain) + " %",
+                           found > bound_of_gain * released });
+        };
+        add_gain("largest energy gain ", gain, gain_time);
+        if (channel_gain > 0.)
+          add_gain("largest energy gain of " + worst_channel + ' ', channel_gain, channel_time);
         list.push_back(
             { "numerical dissipation " + short_text(100. * dissipation / released) + " % of the released energy", "" });
       }

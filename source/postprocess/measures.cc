@@ -85,75 +85,40 @@ namespace scree
   PointSums<dim>::PointSums(const std::list<SoilBody<dim>> &bodies,
                             const std::list<WaterPhase<dim>> &water,
                             const Tensor<1, dim> &gravity,
-                            const MPI_Comm communicator)
+                            const BackgroundGrid<dim> &grid)
       : height(std::numeric_limits<double>::lowest())
   {
+    MotionSums<dim> soil, of_water;
+    double stored = 0.;
     for (const auto &body : bodies)
       {
         Energies energies(*body.material);
         for_each_point(body.points, [&](const auto &point) {
-          add(body, point.location, point.properties, gravity);
-          energies.add(point.properties[body.layout.mass] / body.density,
-                       point.properties + body.layout.left_cauchy_green,
-                       elastic);
+          const double *properties = point.properties;
+          const double mass        = properties[body.layout.mass];
+          const double P           = mean_effective_stress(properties + body.layout.stress);
+          soil_points += 1;
+          soil_mass += mass;
+          pressure += P;
+          largest_pressure = std::max(largest_pressure, P);
+          height           = std::max(height, point.location[dim - 1]);
+          largest_porosity = std::max(largest_porosity, body.porosity(properties));
+          energies.add(mass / body.density, properties + body.layout.left_cauchy_green, stored);
         });
-        energies.finish(elastic);
+        energies.finish(stored);
+        if (!body.is_rigid)
+          soil += motion_of_points(grid, body.points, body.layout, body.has_affine_energy);
       }
-    for_each_moving_point(water, [&](const auto &part, const auto &point) {
-      water_mass += point.properties[part.layout.mass];
-      add_motion(part.layout, part.affine_inertia, point.properties, point.location, gravity);
-    });
-    NumbersOf sums{ &soil_points, &soil_mass, &moving_mass, &water_mass, &kinetic, &potential, &elastic, &pressure };
-    sums &momentum;
-    sums.sum_over_ranks(communicator);
+    for (const auto &part : water)
+      of_water += motion_of_points(grid, part.points(), part.layout, part.has_affine_energy);
+    static_cast<MovingSums<dim> &>(*this) = { soil, of_water, stored, gravity };
+    NumbersOf sums(static_cast<MovingSums<dim> &>(*this));
+    sums &soil_points &soil_mass &pressure;
+    sums.sum_over_ranks(grid.communicator());
 
     std::vector<double> largest{ largest_pressure, height, largest_porosity };
-    Utilities::MPI::max(largest, communicator, largest);
+    Utilities::MPI::max(largest, grid.communicator(), largest);
     largest_pressure = largest[0], height = largest[1], largest_porosity = largest[2];
-  }
-
-
-  template <int dim>
-  void PointSums<dim>::add(const SoilBody<dim> &body,
-                           const Point<dim> &x,
-                           const double *properties,
-                           const Tensor<1, dim> &gravity)
-  {
-    const double mass = properties[body.layout.mass];
-    const double P    = mean_effective_stress(properties + body.layout.stress);
-    soil_points += 1;
-    soil_mass += mass;
-    if (!body.is_rigid)
-      moving_mass += mass;
-    add_motion(body.layout, body.affine_inertia, properties, x, gravity);
-    pressure += P;
-    largest_pressure = std::max(largest_pressure, P);
-    height           = std::max(height, x[dim - 1]);
-    largest_porosity = std::max(largest_porosity, body.porosity(properties));
-  }
-
-
-  template <int dim>
-  template <typename Layout>
-  void PointSums<dim>::add_motion(const Layout &layout,
-                                  const double affine_inertia,
-                                  const double *properties,
-                                  const Point<dim> &x,
-                                  const Tensor<1, dim> &gravity)
-  {
-    const double mass         = properties[layout.mass];
-    const double *velocity    = properties + layout.velocity;
-    double square_of_velocity = 0.;
-    for (unsigned int a = 0; a < dim; ++a)
-      {
-        momentum[a] += mass * velocity[a];
-        square_of_velocity += velocity[a] * velocity[a];
-      }
-    if (affine_inertia > 0.)
-      for (unsigned int c = 0; c < dim * dim; ++c)
-        square_of_velocity += affine_inertia * properties[layout.affine + c] * properties[layout.affine + c];
-    kinetic += 0.5 * mass * square_of_velocity;
-    potential -= mass * (gravity * (x - Point<dim>()));
   }
 
   template struct PointSums<2>;

@@ -332,6 +332,7 @@ namespace scree
     {
       const RunBalance<dim> &totals      = now.totals;
       const Budget<dim> &balance         = totals.balance;
+      const BalanceState<dim> state      = now.balance();
       const SceneFeatures<dim> &features = now.further;
       StatisticsRow row;
       add_value(row, "Time", "s", now.time);
@@ -340,13 +341,13 @@ namespace scree
       add_value(row, "Points", "", now.sums.soil_points);
       add_value(row, "Mass", "kg", now.sums.soil_mass);
       add_value(row, "Momentum", "N s", now.sums.momentum);
-      add_value(row, "Momentum residual", "N s", now.momentum_residual());
+      add_value(row, "Momentum residual", "N s", state.momentum_residual());
       add_value(row, "Kinetic energy", "J", now.sums.kinetic);
       add_value(row, "Potential energy", "J", now.sums.potential);
       add_value(row, "Elastic energy", "J", now.sums.elastic);
       add_value(row, "Plastic dissipation", "J", totals.material.plastic_dissipation);
       add_value(row, "Wall dissipation", "J", balance.wall_dissipation);
-      add_value(row, "Numerical dissipation", "J", now.numerical_dissipation());
+      add_value(row, "Numerical dissipation", "J", state.numerical_dissipation());
       if (!now.bodies.empty())
         add_soil(now, row);
       add_value(row, "Points lost", "", totals.n_lost);
@@ -374,6 +375,8 @@ namespace scree
         add_value(row, "Contact dissipation", "J", balance.contact_dissipation);
       if (features.loads)
         add_value(row, "Load work", "J", balance.load_work);
+      if (features.pressure_work)
+        add_value(row, "Pressure work", "J", balance.pressure_work);
       if (features.volume_correction)
         add_value(row, "Volume correction work", "J", balance.correction_work);
       for (const auto &[name, add] : registered_columns<dim>())
@@ -393,22 +396,22 @@ namespace scree
                                          const UpdateReport &last_step)
   {
     const Snapshot<dim> now{ grid,
+                             gravity,
                              further,
                              bodies,
                              water,
                              history,
                              last_step,
-                             PointSums<dim>(bodies, water, gravity, grid.communicator()),
+                             PointSums<dim>(bodies, water, gravity, grid),
                              bodies.empty() ? MotionNumbers() : motion.look(bodies, time),
                              local.sum_over_ranks(grid.communicator()),
                              time,
                              step,
                              time_step };
-    if (!history.has_start)
+    if (BalanceStart<dim> &start = history.start; !start.is_known)
       {
-        history.has_start      = true;
-        history.start_momentum = now.momentum() - now.totals.impulse();
-        history.start_energy   = now.energy();
+        const BalanceState<dim> balance = now.balance();
+        start = { true, balance.momentum() - now.totals.impulse(), balance.kept_energy(), false };
       }
     history.balance.obstacles.resize(now.totals.balance.obstacles.size());
     last_row        = row_of(now);

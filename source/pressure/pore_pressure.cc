@@ -126,6 +126,18 @@ namespace scree
 
 
   template <int dim>
+  const FlowField<dim> &PorePressure<dim>::prescribed_impulses(const double time_step)
+  {
+    surface.clear(source); // the last solve() has used it
+    for (const unsigned int vertex : surface.wet_vertices())
+      if (surface.kind(vertex) == PressureDofType::prescribed)
+        source.local_element(vertex) = pressure.local_element(vertex);
+    source.update_ghost_values();
+    return schur.impulses(source, time_step, surface.suction_behind());
+  }
+
+
+  template <int dim>
   void PorePressure<dim>::accept_change()
   {
     for (const unsigned int vertex : surface.wet_vertices())

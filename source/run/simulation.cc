@@ -103,12 +103,11 @@ namespace scree
             step(largest_step, output_times.next(largest_step));
             report();
             if (progress_is_due || is_at_end())
-              progress->report(
-                  clock.time(),
-                  clock.step(),
-                  last_time_step,
-                  shown_motion(scene).second,
-                  PointSums<dim>(scene.bodies, scene.water, scene.forcing.gravity(), communicator).kinetic);
+              progress->report(clock.time(),
+                               clock.step(),
+                               last_time_step,
+                               shown_motion(scene).second,
+                               PointSums<dim>(scene.bodies, scene.water, scene.forcing.gravity(), scene.grid).kinetic);
           }
       }
     catch (const InputError &)
@@ -171,26 +170,26 @@ namespace scree
       {
         AssertThrow(false, ExcMessage(fault.name + ", t = " + number_text(clock.time()) + " s: " + fault.what()));
       }
-    place_points(time_step, step.speeds);
-
     totals.balance += step.balance;
     if (is_released && scene.forcing.mass_scaling() > 1.)
       totals.balance.motion += 0.5 * time_step * scheme->nodal_forces(time_step).kinetic;
     totals.material.add(step.material);
-    last_update = step.material;
+    totals.elastic_energy = step.material.elastic_energy;
+    last_update           = step.material;
     point_updates += step.n_updates;
-    account_for_lost_points();
+    place_points(time_step, step);
+    account_for_lost_points(time_step);
     if (is_released)
       end_step(time_step);
   }
 
 
   template <int dim>
-  void Simulation<dim>::place_points(const double time_step, const Speeds &of_rank)
+  void Simulation<dim>::place_points(const double time_step, const StepReport<dim> &step)
   {
     const auto sets = point_sets();
     // Besides speeds, whether a point is at the edge and a line of progress is due; then the disorder of each set.
-    std::vector<double> largest{ of_rank.wave, of_rank.points, 0., double(progress && progress->is_due()) };
+    std::vector<double> largest{ step.speeds.wave, step.speeds.points, 0., double(progress && progress->is_due()) };
     const unsigned int first_set = largest.size();
     {
       const TimedPart part(timer, TimerSection::sort);
@@ -200,8 +199,14 @@ namespace scree
           largest[2] = std::max(largest[2], double(points->is_at_edge()));
         }
     }
-    agree_on(largest);
+    MovingSums<dim> sums(step.soil, step.water, step.material.elastic_energy, scene.forcing.gravity());
+    RunBalance<dim> all_totals = totals;
+    NumbersOf summed(sums);
+    summed &all_totals;
+    agree_on(largest, summed);
     require_stable_speed(time_step);
+    if (is_released) // What leaves the box in this step is in the sums, and not in the totals yet.
+      results.watch(sums, all_totals, clock.time() + time_step, time_step);
     const TimedPart part(timer, TimerSection::sort);
     progress_is_due = largest[3] > 0.;
     points_at_edge  = points_at_edge || largest[2] > 0.;
@@ -300,14 +305,14 @@ namespace scree
 
 
   template <int dim>
-  void Simulation<dim>::agree_on(std::vector<double> &largest)
+  void Simulation<dim>::agree_on(std::vector<double> &largest, const NumbersOf &sums)
   {
     const TimedPart part(timer, TimerSection::waiting);
     for (double &value : largest)
       if (std::isnan(value))
         value = std::numeric_limits<double>::infinity();
     largest.push_back(static_cast<double>(stop.reason()));
-    Utilities::MPI::max(largest, communicator, largest);
+    sums.sum_over_ranks(communicator, largest);
     speeds = { largest[0], largest[1] };
     scene.include_inflows(speeds);
     reason = static_cast<StopReason>(largest.back());
@@ -371,7 +376,7 @@ namespace scree
 
 
   template <int dim>
-  void Simulation<dim>::account_for_lost_points()
+  void Simulation<dim>::account_for_lost_points(const double time_step)
   {
     const auto lose = [&](const std::string &name,
                           const std::vector<LostPoint<dim>> &points,
@@ -391,8 +396,9 @@ namespace scree
           const Tensor<1, dim> velocity = vector_of<dim>(point.properties.data() + layout.velocity);
           lost_mass += mass;
           totals.lost_momentum += inertia * velocity;
-          totals.lost_energy += 0.5 * inertia * velocity.norm_square() -
-                                mass * (scene.forcing.gravity() * (point.location - Point<dim>()));
+          totals.lost_energy +=
+              0.5 * inertia * velocity.norm_square() -
+              mass * (scene.forcing.gravity() * (point.location - Point<dim>() - 0.5 * time_step * velocity));
         }
     };
     for (auto &part : scene.water)

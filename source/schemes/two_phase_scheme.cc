@@ -134,6 +134,7 @@ namespace scree
     pressure.solve(mixture, nodes, rows, water_is_held, time_step, budget); // B u = c, N v <= c
     momentum.correct(nodes, pressure, time_step, budget);                   // v = v** - dt A^-1 (B^T dp + N^T t)
     contact.count_rows(nodes, time_step, budget);
+    momentum.count_pressure_work(nodes, pressure, time_step, budget);
   }
 
 
@@ -191,6 +192,8 @@ namespace scree
     for (auto &one : water)
       if (PointSet<dim> *own = one.own_points())
         contact.project_to_boundary(*own, time_step, largest_speed, faces_closed_to_water);
+    for (const auto &one : water)
+      report.water += motion_of_points(grid, one.points(), one.layout, one.has_affine_energy);
   }
 
 

@@ -82,7 +82,8 @@ namespace scree
                                 const double time_step,
                                 const double keep,
                                 const unsigned int first,
-                                LargestSquare &largest)
+                                LargestSquare &largest,
+                                MotionSums<dim, Batch> &sums)
   {
     using Layout         = PropertyLayout<dim>;
     const OpenKnots open = grid.open_knots(cell.cell);
@@ -108,6 +109,17 @@ namespace scree
         }
       for (unsigned int c = 0; c < dim; ++c)
         location[c] += time_step * at_points.velocity[c];
+      Batch affine_square = simd::broadcast<Batch>(0.), place[dim];
+      if constexpr (method == TransferMethod::aflip)
+        {
+          for (unsigned int a = 0; a < dim; ++a)
+            place[a] = shape.x[a] + time_step / grid.cell_size() * at_points.velocity[a];
+          affine_square = square_of_affine<dim, n, Batch>(affine, place, open, grid.cell_size());
+        }
+      sums.add(simd::select<Batch>(simd::first_lanes(n_used), own[Layout::mass], simd::broadcast<Batch>(0.)),
+               own,
+               location,
+               affine_square);
       simd::store_records<dim>(own, points.slots_at(Layout::velocity));
       simd::store_records<dim>(location, points.locations);
       if constexpr (carries_affine(method))
@@ -131,20 +143,21 @@ namespace scree
 
   template <int dim>
   template <int n, TransferMethod method>
-  MotionReport Transfer<dim>::move_points(SoilBody<dim> &body,
-                                          const NodalField<dim> &field,
-                                          const double time_step,
-                                          const double damping_time)
+  MotionReport<dim> Transfer<dim>::move_points(SoilBody<dim> &body,
+                                               const NodalField<dim> &field,
+                                               const double time_step,
+                                               const double damping_time)
   {
     const double keep = kept_velocity(method, pic_rate, time_step);
-    MotionReport report;
+    MotionReport<dim> report;
     LargestSquare largest;
+    MotionSums<dim, Batch> sums;
     const auto move = [&](const Block &block, const auto &average) {
       motion.resize(block.n_points);
       unsigned int first = 0;
       for (const auto *cell = block.begin; cell != block.end; first += (cell++)->n_points)
         {
-          move_cell<n, method>(body, *cell, field, time_step, keep, first, largest);
+          move_cell<n, method>(body, *cell, field, time_step, keep, first, largest, sums);
           average(*cell, first);
         }
     };
@@ -175,6 +188,7 @@ namespace scree
       update_state(body, block, time_step, damping_time, report.material);
     });
     report.largest_speed = largest.speed();
+    report.sums          = sums.of_lanes();
     return report;
   }
 
@@ -233,10 +247,10 @@ namespace scree
 
 
   template <int dim>
-  MotionReport Transfer<dim>::to_points(SoilBody<dim> &body,
-                                        const NodalField<dim> &field,
-                                        const double time_step,
-                                        const double damping_time)
+  MotionReport<dim> Transfer<dim>::to_points(SoilBody<dim> &body,
+                                             const NodalField<dim> &field,
+                                             const double time_step,
+                                             const double damping_time)
   {
     return with_nodes_1d(grid, [&](auto n) {
       return with_method(

@@ -75,12 +75,6 @@ namespace scree
   }
 
 
-  double TransferParameters::affine_inertia(const double cell_size) const
-  {
-    return transfer_method() == TransferMethod::aflip ? cell_size * cell_size / 4. : 0.;
-  }
-
-
   void StabilisationParameters::add_parameters(ParameterHandler &prm)
   {
     prm.enter_subsection("Stabilisation");

@@ -3,6 +3,7 @@
 
 import math
 import os
+import re
 import subprocess
 import sys
 
@@ -36,6 +37,11 @@ def run(scree, case, name, entries, may_stop=False):
 def log_of(run_folder):
     with open(os.path.join(run_folder, "log.txt"), encoding="utf-8") as file:
         return file.read()
+
+
+def largest_gain(run_folder):
+    """The largest energy gain of all steps over the released energy, as the log names it."""
+    return float(re.search(r"largest energy gain (\S+) %", log_of(run_folder).replace("\n            ", " ")).group(1)) / 100
 
 
 def pictures(entries=None):

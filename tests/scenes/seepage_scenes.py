@@ -16,7 +16,7 @@ import numpy as np
 from scree import closed_forms
 from scree.results import read_points, read_times
 
-from scene_tools import WATER, at, check, log_of, main, run, ways
+from scene_tools import WATER, at, check, largest_gain, log_of, main, run, ways
 
 # A level layer, 8 m deep, in a box 2 m wide.
 LAYER = {"Mesh/Upper corner": "2, 10", "Mesh/Cell size": "0.25", "Soil/Region": "y < 8", "Soil/Dry unit weight": "16e3",
@@ -234,6 +234,7 @@ def green_ampt(scree):
         rest = pond - porosity * depth
         exact = pond / 2 - (rest * rest / 2 - porosity * depth * depth / 2) / pond
         check("pond, suction %g m: fall over that of Green & Ampt" % suction, fall / exact, 0.94, 1.03, 0.03)
+        check("pond, suction %g m: largest energy gain" % suction, largest_gain("pond"), 0, 1e-3)
 
 
 def wet_cut(scree):

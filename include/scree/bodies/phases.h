@@ -108,13 +108,13 @@ namespace scree
     std::string name;                        ///< name of its subsection
     double density;                          ///< bulk density of the dry soil at J = 1, kg/m^3
     double grain_density;                    ///< kg/m^3
-    double spacing        = 0;               ///< of its points at the start, m
-    double affine_inertia = 0;               ///< see TransferParameters::affine_inertia()
+    double spacing = 0;                      ///< of its points at the start, m
     std::unique_ptr<Material<dim>> material; ///< the law; holds no state of points
     PropertyLayout<dim> layout;              ///< offsets of the quantities of a point
     PointSet<dim> points;                    ///< its points on this rank
-    bool is_rigid      = false;              ///< its points keep their place and carry any stress
-    unsigned int group = 0;                  ///< bodies of a group stick to each other and share a velocity field
+    bool has_affine_energy = false;          ///< see TransferParameters::has_affine_energy()
+    bool is_rigid          = false;          ///< its points keep their place and carry any stress
+    unsigned int group     = 0;              ///< bodies of a group stick to each other and share a velocity field
     std::optional<DragLaw> drag;             ///< on water; none in a dry scene
 
     /// Makes a body without points.
@@ -226,9 +226,9 @@ namespace scree
     {
     }
 
-    const double density;          ///< kg/m^3
-    const WaterLayout<dim> layout; ///< offsets of the water's quantities
-    double affine_inertia = 0;     ///< see TransferParameters::affine_inertia()
+    const double density;           ///< kg/m^3
+    const WaterLayout<dim> layout;  ///< offsets of the water's quantities
+    bool has_affine_energy = false; ///< see TransferParameters::has_affine_energy()
 
     /// Points that carry the water: its own, or those of carrier().
     PointSet<dim> &points()

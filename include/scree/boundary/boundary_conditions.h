@@ -178,6 +178,15 @@ namespace scree
     /// Pressure of the open ones among the faces, Pa: their mean, or 0 if there is none.
     double pressure(const std::uint8_t faces) const;
 
+    /// Whether any open face holds a pressure other than 0.
+    bool has_pressure() const
+    {
+      bool any = false;
+      for (unsigned int f = 0; f < 2 * dim; ++f)
+        any = any || (is_open(f) && pressure(1u << f) != 0.);
+      return any;
+    }
+
     /// Name of the face of the box nearest to a point outside, and whether it is open.
     std::pair<std::string, bool> face_crossed(const dealii::Point<dim> &location) const
     {

@@ -48,6 +48,13 @@ namespace scree
       frame.compose({ { factor * stress[0], factor * stress[1], factor * stress[2] } }, components);
     }
 
+    /// Stored energy, J per m^3 of reference volume.
+    template <typename Law>
+    DEAL_II_ALWAYS_INLINE inline Number energy(const Law &law, const simd::Mask<Number> &) const
+    {
+      return energy_of<Number>(law, strain);
+    }
+
     /// Kirchhoff stress times the change of strain, J per m^3 of reference volume.
     Number dissipation() const
     {
@@ -112,6 +119,17 @@ namespace scree
         components[c] = c < 3 ? mean + slope * this->deviator[c] : slope * this->deviator[c];
     }
 
+    /// Stored energy, J per m^3 of reference volume.
+    /// @param is_plastic where the strain has been returned
+    template <typename Law>
+    DEAL_II_ALWAYS_INLINE inline Number energy(const Law &law, const simd::Mask<Number> &is_plastic) const
+    {
+      const Number square = found.deviator_factor * found.deviator_factor * this->square;
+      return law.energy(StrainInvariants<Number>{ simd::select<Number>(is_plastic, found.volume_strain, this->volume),
+                                                  simd::select<Number>(is_plastic, square, this->square),
+                                                  simd::broadcast<Number>(0.) });
+    }
+
     /// Kirchhoff stress times the change of strain, J per m^3 of reference volume.
     Number dissipation() const
     {
@@ -163,30 +181,33 @@ namespace scree
       UpdateReport own;                                       // The compiler keeps it in registers.
       own.largest_bulk_modulus = report.largest_bulk_modulus; // so that few batches have larger ones
       own.largest_compression  = report.largest_compression;
+      Batch energies           = simd::broadcast<Batch>(0.);
       for (unsigned int first = 0; first < points.n_points; first += List::capacity)
         {
           List returns, cut, others;
           for_each_batch(std::min(points.n_points - first, List::capacity), [&](auto indices, const unsigned int n) {
             for (unsigned int &index : indices)
               index += first;
-            const Left left = advance<State<Batch>, Batch, false>(indices, n, points, motion, own);
+            const Left left = advance<State<Batch>, Batch, false>(indices, n, points, motion, own, energies);
             if (left.all == 0)
               return;
             returns.append(indices, left.all & ~left.cut);
             cut.append(indices, left.cut);
           });
           if constexpr (Law::leaves_returns)
-            advance_list<State<Gathered>>(returns, others, points, motion, own);
-          advance_list<State<Gathered>>(cut, others, points, motion, own);
+            advance_list<State<Gathered>>(returns, others, points, motion, own, energies);
+          advance_list<State<Gathered>>(cut, others, points, motion, own, energies);
           if constexpr (Law::in_invariants && dim == 3)
             {
               const List far = std::exchange(others, List());
-              advance_list<PrincipalState<dim, Gathered>>(far, others, points, motion, own);
+              advance_list<PrincipalState<dim, Gathered>>(far, others, points, motion, own, energies);
             }
           if (others.size > 0)
             throw_refusal(others.points[0], motion);
         }
       own.n_updates = points.n_points;
+      for (unsigned int lane = 0; lane < batch_size; ++lane)
+        own.elastic_energy += energies[lane];
       report.add(own);
     }
 
@@ -196,15 +217,11 @@ namespace scree
     }
     double elastic_energy(const double *left_cauchy_green) const override
     {
-      return law.energy(strain_of(left_cauchy_green));
+      return energy_of<double>(law, strain_of(left_cauchy_green));
     }
     Batch elastic_energies(const Batch *left_cauchy_green) const override
     {
-      const PrincipalNumbers<Batch> strain = log_strain(PrincipalFrame<dim, Batch>(left_cauchy_green).values());
-      Batch energies;
-      for (unsigned int lane = 0; lane < batch_size; ++lane)
-        energies[lane] = law.energy({ { strain[0][lane], strain[1][lane], strain[2][lane] } });
-      return energies;
+      return energy_of<Batch>(law, log_strain(PrincipalFrame<dim, Batch>(left_cauchy_green).values()));
     }
     void initialise(const double *wanted_stress,
                     double *left_cauchy_green,
@@ -372,18 +389,20 @@ namespace scree
       unsigned int all, cut; // cut: those that need sub-steps
     };
 
-    /// Advances points of a list in parts, one at least; those that it leaves are added to `rest`.
+    /// Advances points of a list in parts, one at least; those that it leaves are added to `rest`, their elastic
+    /// energies of the middle of the step, J, to `energies`, lane by lane.
     template <typename PointState>
     DEAL_II_ALWAYS_INLINE inline void advance_list(const List &list,
                                                    List &rest,
                                                    const MaterialPoints<dim> &points,
                                                    const MaterialMotion<dim> &motion,
-                                                   UpdateReport &report) const
+                                                   UpdateReport &report,
+                                                   Batch &energies) const
     {
       for_each_group<simd::n_lanes<Gathered>>(list.size, [&](auto places, const unsigned int n) {
         for (unsigned int &place : places)
           place = list.points[place];
-        rest.append(places, advance<PointState, Gathered, true>(places, n, points, motion, report).all);
+        rest.append(places, advance<PointState, Gathered, true>(places, n, points, motion, report, energies).all);
       });
     }
 
@@ -393,7 +412,8 @@ namespace scree
                                               const unsigned int n,
                                               const MaterialPoints<dim> &points,
                                               const MaterialMotion<dim> &motion,
-                                              UpdateReport &report) const
+                                              UpdateReport &report,
+                                              Batch &energies) const
     {
       using Mask             = simd::Mask<Number>;
       constexpr bool returns = n_internal > 0 && (in_parts || !Law::leaves_returns);
@@ -422,7 +442,7 @@ namespace scree
       const Number part = 1. / n_parts, inverse_ratio = 1. / lanes.volume_ratio;
 
       const auto count = [&](const Mask &mask) { return __builtin_popcount(simd::bits_of(mask) & used); };
-      Number stress[n_components], dissipation = zero;
+      Number stress[n_components], dissipation = zero, energy = zero;
       Mask is_separated{}, was_plastic{};
       for (unsigned int k = 0; k == 0 || (in_parts && simd::any(is_served & (n_parts > double(k)))); ++k)
         {
@@ -461,12 +481,14 @@ namespace scree
           if (!in_parts || k == 0)
             {
               state.compose_stress(inverse_ratio, stress);
+              energy = state.energy(law, response.is_plastic);
               std::copy_n(b, n_components, lanes.left_cauchy_green);
             }
           else
             {
               Number now[n_components];
               state.compose_stress(inverse_ratio, now);
+              energy = simd::select<Number>(is_active, state.energy(law, response.is_plastic), energy);
               for (unsigned int c = 0; c < n_components; ++c)
                 {
                   lanes.left_cauchy_green[c] = simd::select<Number>(is_active, b[c], lanes.left_cauchy_green[c]);
@@ -492,6 +514,20 @@ namespace scree
         {
           write<n_components>(lanes.left_cauchy_green, indices, stored, points, points.left_cauchy_green);
           write<n_components>(stress, indices, stored, points, points.stress);
+          Number work = dim == 2 ? stress[2] * (lanes.stretch - 1.) : zero;
+          for (unsigned int i = 0, c = 3; i < dim; ++i)
+            {
+              work += stress[i] * change[i * (dim + 1)];
+              for (unsigned int j = i + 1; j < dim; ++j)
+                work += stress[c++] * (change[i * dim + j] + change[j * dim + i]);
+            }
+          energy = lanes.reference_volume * (energy - 0.5 * lanes.volume_ratio * work);
+          for (unsigned int h = 0; h < simd::n_lanes<Number> / batch_size; ++h)
+            if (const unsigned int all = (1u << batch_size) - 1, own = stored >> h * batch_size & all; own == all)
+              energies += simd::half(energy, h);
+            else
+              for (unsigned int bits = own; bits != 0; bits &= bits - 1)
+                energies[__builtin_ctz(bits)] += simd::half(energy, h)[__builtin_ctz(bits)];
         }
       report.n_substeps += __builtin_popcount(stored);
       if constexpr (in_parts)

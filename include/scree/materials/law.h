@@ -80,11 +80,12 @@ namespace scree
   ///   energy(strain)                                                    J per m^3 of reference volume
   ///   initialise(wanted stress, strain, stress, internal variables)     see Material::initialise()
   ///   respond(step, strain, internal variables, stress)                 from trial strain to strain and stress
-  /// all in principal values of logarithmic elastic strain and of Kirchhoff stress (Pa), tension positive. respond() is
-  /// a template of `Number`: a double, a Batch or a BatchPair of points.
+  /// all in principal values of logarithmic elastic strain and of Kirchhoff stress (Pa), tension positive. energy() and
+  /// respond() are templates of `Number`: a double, a Batch or a BatchPair of points.
   ///
   /// A law whose response depends on invariants alone, and whose stress has the axes and the ratios of the trial
   /// strain's deviator, has instead, with `in_invariants`,
+  ///   energy(StrainInvariants)                                          J per m^3 of reference volume
   ///   respond(step, StrainInvariants, internal variables)               an InvariantResponse
   /// which saves the principal axes in three dimensions.
   class ConstitutiveLaw : public LawProperties
@@ -101,6 +102,17 @@ namespace scree
     {
     }
   };
+
+
+  /// Stored energy of any law in principal values, J per m^3 of reference volume.
+  template <typename Number, typename Law>
+  DEAL_II_ALWAYS_INLINE inline Number energy_of(const Law &law, PrincipalNumbers<Number> strain)
+  {
+    if constexpr (Law::in_invariants)
+      return law.energy(take_invariants<Number>(strain));
+    else
+      return law.energy(strain);
+  }
 
 
   /// The response of any law in principal values: from trial to returned `strain` and internal variables, and `stress`.

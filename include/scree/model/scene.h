@@ -97,6 +97,12 @@ namespace scree
     std::shared_ptr<const SeepageField<dim>> seepage; ///< steady, before the first step; null without
     std::unique_ptr<CutCells<dim>> cut_cells;         ///< where these cut the cells; null without both
 
+    /// Whether suction, or water at a drained wall that holds a pressure, does work.
+    bool has_pressure_work() const
+    {
+      return !water.empty() && (parameters.water.air_entry_pressure > 0. || water_walls->has_pressure());
+    }
+
   private:
     void make_bodies();
     void join_ground();

@@ -49,6 +49,13 @@ namespace scree
     void
     correct(const MixtureNodes<dim> &nodes, PorePressure<dim> &pressure, const double time_step, Budget<dim> &balance);
 
+    /// Adds the work of suction and of the pressure at drained walls, after correct(): as any impulse, they act at the
+    /// mean of the velocities before and after. Collective.
+    void count_pressure_work(const MixtureNodes<dim> &nodes,
+                             PorePressure<dim> &pressure,
+                             const double time_step,
+                             Budget<dim> &balance) const;
+
     /// Soil and water at an owned node, after predict().
     DragBlock<dim> drag_block_at(const MixtureNodes<dim> &nodes, const unsigned int node) const;
 

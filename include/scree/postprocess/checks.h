@@ -112,11 +112,12 @@ namespace scree
     bool has_soil                = false;
   };
 
-  /// Watches mass, momentum and energy of a run from its start. The energy gain is the largest fall of the numerical
-  /// dissipation or of that of a channel (walls, bed, an obstacle, ...), over the released energy: that of the start
-  /// which the run has turned into motion or stored, and work done on it. With mass scaling, momentum and energy are
-  /// those of the scaled masses, and the kinetic energy over the work W shows whether the motion was slow: its integral
-  /// over time, over that of W(end) - W. So it depends neither on the rows nor on the time after the motion.
+  /// Watches mass, momentum and energy of a run in each step from its start on. The energy gain is the largest fall of
+  /// the numerical dissipation, or from some steps to the next that of a channel (walls, bed, an obstacle, ...), over
+  /// the released energy: that of the start which the run has turned into motion or stored, and work done on it. With
+  /// mass scaling, momentum and energy are those of the scaled masses, and the kinetic energy over the work W shows
+  /// whether the motion was slow: its integral over time, over that of W(end) - W. So it does not depend on the time
+  /// after the motion.
   template <int dim>
   class BalanceChecks
   {
@@ -130,8 +131,14 @@ namespace scree
     {
     }
 
-    /// Compares a row of the statistics with the start, which is the first one.
-    void look(const Snapshot<dim> &now);
+    /// Compares the end of a step with the start, which the first look is at.
+    void look(const BalanceState<dim> &now);
+
+    /// Whether it knows the start.
+    bool has_looked() const
+    {
+      return has_start;
+    }
 
     /// The worst of all looks. What does not apply is left out.
     std::vector<CheckResult> results() const;
@@ -140,13 +147,17 @@ namespace scree
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &has_start &soil_mass &water_mass &mass_error;
-      archive &momentum_residual &momentum_scale;
+      archive &has_start &soil_mass &water_mass &mass_error &mass_time;
+      archive &momentum_residual &momentum_time &momentum_scale;
       archive &start_kinetic &start_potential &start_elastic &least_potential &largest_work;
-      archive &dissipation &largest_dissipations &gain &gain_channel &start_time &last_time &work &work_in_time &motion;
+      archive &dissipation &largest_dissipation &gain &gain_time;
+      archive &largest_of_channels &channel_gain &channel_time &worst_channel &n_looks;
+      archive &start_time &last_time &work &work_in_time &motion;
     }
 
   private:
+    void look_at_channels(const RunBalance<dim> &totals, const double time);
+
     /// Energy below which nothing has moved, J.
     double least_energy() const
     {
@@ -167,25 +178,32 @@ namespace scree
     const bool energy_is_closed;
     const double mass_scaling;
 
-    bool has_start           = false;
-    double soil_mass         = 0; // at the start, kg
-    double water_mass        = 0;
-    double mass_error        = 0; // largest, relative
-    double momentum_residual = 0; // largest, N s
-    double momentum_scale    = 0; // N s
-    double start_kinetic     = 0; // J
-    double start_potential   = 0;
-    double start_elastic     = 0;
-    double least_potential   = 0;             // with that of what has left, without that of what has entered
-    double largest_work      = 0;             // of loads, obstacles and volume correction, J
-    double dissipation       = 0;             // numerical, now, J
-    std::vector<double> largest_dissipations; // so far, of each channel, J
-    double gain = 0;                          // largest fall from one of them, J
-    std::string gain_channel;                 // that fell most; empty: numerical
-    double start_time = 0, last_time = 0;     // s
-    double work         = 0;                  // of loads, obstacles and gravity since the start, J
-    double work_in_time = 0;                  // its integral, J s
-    double motion       = 0;                  // that of the kinetic energy, J s
+    bool has_start             = false;
+    double soil_mass           = 0; // at the start, kg
+    double water_mass          = 0;
+    double mass_error          = 0; // largest, relative
+    double mass_time           = 0; // of the largest, s
+    double momentum_residual   = 0; // largest, N s
+    double momentum_time       = 0; // of the largest, s
+    double momentum_scale      = 0; // N s
+    double start_kinetic       = 0; // J
+    double start_potential     = 0;
+    double start_elastic       = 0;
+    double least_potential     = 0; // with that of what has left, without that of what has entered
+    double largest_work        = 0; // of loads, obstacles and volume correction, J
+    double dissipation         = 0; // numerical, now, J
+    double largest_dissipation = -std::numeric_limits<double>::infinity(); // so far, J
+    double gain                = 0;                                        // largest fall from it, J
+    double gain_time           = 0;                                        // of its end, s
+    std::vector<double> largest_of_channels;                               // so far, J
+    double channel_gain = 0;                                               // largest fall from one of them, J
+    double channel_time = 0;                                               // of its end, s
+    std::string worst_channel;                                             // that fell most
+    unsigned long long n_looks = 0;
+    double start_time = 0, last_time = 0; // s
+    double work         = 0;              // of loads, obstacles and gravity since the start, J
+    double work_in_time = 0;              // its integral, J s
+    double motion       = 0;              // that of the kinetic energy, J s
   };
 } // namespace scree
 

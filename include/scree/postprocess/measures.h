@@ -61,47 +61,65 @@ namespace scree
       for_each_point(part.points(), [&](const auto &point) { act(part, point); });
   }
 
-  /// Sums over all points of all ranks (2D: per m). Momentum and energies are those of soil and water together.
+  /// Soil that can move, and water (2D: per m). Momentum and energies are those of both together.
   template <int dim>
-  struct PointSums
+  struct MovingSums
   {
-    double soil_points = 0;          ///< number of points
-    double soil_mass   = 0;          ///< kg
-    double moving_mass = 0;          ///< of the soil that can move, kg
+    double moving_mass = 0;          ///< of the soil, kg
     double water_mass  = 0;          ///< kg
     dealii::Tensor<1, dim> momentum; ///< N s
-    double kinetic          = 0;     ///< of velocities and affine fields, J
-    double potential        = 0;     ///< of gravity, J
-    double elastic          = 0;     ///< of the soil, J
-    double pressure         = 0;     ///< P of the soil, Pa, summed over points
-    double largest_pressure = 0;     ///< P, Pa
-    double height;                   ///< of the highest soil point, m; far below everything without soil
-    double largest_porosity = 0;     ///< of soil points
+    double kinetic   = 0;            ///< of velocities and affine fields, J
+    double potential = 0;            ///< of gravity, J
+    double elastic   = 0;            ///< of the soil, J
+
+    MovingSums() = default;
+
+    /// Sums over the points of soil and of water.
+    /// @param gravity m/s^2
+    MovingSums(const MotionSums<dim> &soil,
+               const MotionSums<dim> &water,
+               const double elastic,
+               const dealii::Tensor<1, dim> &gravity)
+        : moving_mass(soil.mass)
+        , water_mass(water.mass)
+        , kinetic(soil.kinetic + water.kinetic)
+        , elastic(elastic)
+    {
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          momentum[a] = soil.momentum[a] + water.momentum[a];
+          potential -= gravity[a] * (soil.moment[a] + water.moment[a]);
+        }
+    }
+
+    /// Lists all numbers, see NumbersOf.
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &moving_mass &water_mass &momentum &kinetic &potential &elastic;
+    }
+  };
+
+  /// Sums over all points of all ranks (2D: per m).
+  template <int dim>
+  struct PointSums : MovingSums<dim>
+  {
+    double soil_points      = 0; ///< number of points
+    double soil_mass        = 0; ///< kg
+    double pressure         = 0; ///< P of the soil, Pa, summed over points
+    double largest_pressure = 0; ///< P, Pa
+    double height;               ///< of the highest soil point, m; far below everything without soil
+    double largest_porosity = 0; ///< of soil points
 
     /// Collective.
     /// @param gravity m/s^2
     PointSums(const std::list<SoilBody<dim>> &bodies,
               const std::list<WaterPhase<dim>> &water,
               const dealii::Tensor<1, dim> &gravity,
-              const MPI_Comm communicator);
+              const BackgroundGrid<dim> &grid);
 
   private:
     class Energies;
-
-    void add(const SoilBody<dim> &body,
-             const dealii::Point<dim> &x,
-             const double *properties,
-             const dealii::Tensor<1, dim> &gravity);
-
-    /// Mass and velocity of a point of any phase: its momentum and energies.
-    /// @param layout of the phase
-    /// @param affine_inertia see TransferParameters
-    template <typename Layout>
-    void add_motion(const Layout &layout,
-                    const double affine_inertia,
-                    const double *properties,
-                    const dealii::Point<dim> &x,
-                    const dealii::Tensor<1, dim> &gravity);
   };
 
   /// The columns of the mesh's fine cells along the last axis, along x first.

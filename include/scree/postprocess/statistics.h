@@ -23,14 +23,15 @@ namespace scree
     double lost_mass       = 0;              ///< of soil, kg
     double lost_volume     = 0;              ///< of soil as dense as at the start, m^3 (2D: per m)
     double lost_water_mass = 0;              ///< kg
-    double lost_energy     = 0;              ///< kinetic and potential, J
+    double lost_energy     = 0;              ///< the same, without the elastic one, J
     dealii::Tensor<1, dim> entered_momentum; ///< of soil and water points of inflows, N s
     double n_entered          = 0;           ///< points of soil
     double entered_mass       = 0;           ///< of soil, kg
     double entered_water_mass = 0;           ///< kg
-    double entered_energy     = 0;           ///< kinetic, potential and elastic, J
+    double entered_energy     = 0;           ///< kept_energy() of BalanceState, J
     double n_lost             = 0;           ///< points that left the box; exact, and travels like the rest
     UpdateReport material;                   ///< dissipation and counts of the stress updates
+    double elastic_energy = 0;               ///< of the middle of the last step, see UpdateReport, J
 
     RunBalance() = default;
 
@@ -60,7 +61,8 @@ namespace scree
     {
       return material.plastic_dissipation + balance.wall_dissipation + balance.bed_dissipation +
              balance.contact_dissipation + balance.drag_dissipation + balance.viscous_dissipation + lost_energy -
-             balance.load_work - balance.correction_work - balance.obstacle_energy() - entered_energy;
+             balance.load_work - balance.correction_work - balance.pressure_work - balance.obstacle_energy() -
+             entered_energy;
     }
 
     /// Saves or loads all members (Boost).
@@ -71,6 +73,7 @@ namespace scree
       archive &material
           .plastic_dissipation &lost_mass &lost_volume &lost_water_mass &lost_energy &lost_momentum &n_lost;
       archive &entered_momentum &n_entered &entered_mass &entered_water_mass &entered_energy;
+      archive &elastic_energy;
       archive &material.n_updates &material.n_substeps &material.n_fallbacks;
       archive &material.n_vertices &material.n_unresolved;
     }
@@ -145,12 +148,80 @@ namespace scree
     bool has_soil          = false;
   };
 
+  /// Soil and water of all ranks at the start of a run, which balances count from (2D: per m).
+  template <int dim>
+  struct BalanceStart
+  {
+    bool is_known = false;           ///< whether there has been a row
+    dealii::Tensor<1, dim> momentum; ///< with scaled masses, N s
+    double energy = 0;               ///< see BalanceState::kept_energy(), J
+    bool has_step = false;           ///< whether it has that of the first step
+
+    /// Takes the length of the first step, s.
+    /// @param fall mass times velocity times gravity, W
+    void begin(const double time_step, const double fall)
+    {
+      if (is_known && !has_step)
+        energy += 0.5 * time_step * fall;
+      has_step = is_known;
+    }
+
+    /// Saves or loads all members (Boost).
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &is_known &momentum &energy &has_step;
+    }
+  };
+
+  /// Momentum and energy of all ranks at the end of a step, beside the start (2D: per m).
+  template <int dim>
+  struct BalanceState
+  {
+    const BalanceStart<dim> &start;       ///< of the run
+    const double mass_scaling;            ///< see BodyForces
+    const dealii::Tensor<1, dim> gravity; ///< m/s^2
+    const MovingSums<dim> &sums;          ///< now; before a step is over with the elastic energy of the start
+    const RunBalance<dim> &totals;        ///< since the start
+    const double time;                    ///< s
+    const double time_step;               ///< s; 0 before the first step
+
+    /// Momentum with scaled masses, N s.
+    dealii::Tensor<1, dim> momentum() const
+    {
+      return mass_scaling * sums.momentum;
+    }
+
+    /// Kinetic, potential and elastic energy, with scaled masses, of one moment, J. Steps are those of symplectic
+    /// Euler, v <- v + dt f(x), x <- x + dt v: velocities are those of the middle of the step, and so are the other
+    /// energies, E - dt/2 dV/dt. (That is the energy which these steps conserve, for an oscillator without any error. E
+    /// itself falls with what falls and rises with what rises, in first order of dt.)
+    double kept_energy() const
+    {
+      return mass_scaling * sums.kinetic + sums.potential + 0.5 * time_step * (gravity * sums.momentum) +
+             (time_step > 0. ? totals.elastic_energy : sums.elastic);
+    }
+
+    /// What the impulses since the start do not explain of the momentum, N s.
+    double momentum_residual() const
+    {
+      return (momentum() - start.momentum - totals.impulse()).norm();
+    }
+
+    /// What known losses and work since the start do not explain of the energy, J.
+    double numerical_dissipation() const
+    {
+      return start.energy - kept_energy() - totals.energy_taken();
+    }
+  };
+
   /// What there are columns for besides those of all scenes.
   template <int dim>
   struct SceneFeatures
   {
     bool loads                                = false,   ///< surface loads
         volume_correction                     = false,   ///< work of ParticleShifting
+        pressure_work                         = false,   ///< of suction and of pressure at drained walls
         viscosity                             = false,   ///< viscosity of the water
         inflows                               = false,   ///< what has entered
         contacts                              = false;   ///< contact between bodies
@@ -163,12 +234,10 @@ namespace scree
   template <int dim>
   struct RowHistory
   {
-    bool has_start = false;                ///< whether there has been a row
-    dealii::Tensor<1, dim> start_momentum; ///< N s
-    double start_energy     = 0;           ///< kinetic, potential and elastic, J
-    unsigned long long step = 0;           ///< steps of the run
-    double time             = 0;           ///< s
-    Budget<dim> balance;                   ///< of all steps so far
+    BalanceStart<dim> start;     ///< of the run
+    unsigned long long step = 0; ///< steps of the run
+    double time             = 0; ///< s
+    Budget<dim> balance;         ///< of all steps so far
   };
 
   /// What a column of the statistics may ask for: soil and water of all ranks when a row is due (2D: per m).
@@ -176,6 +245,7 @@ namespace scree
   struct Snapshot
   {
     const BackgroundGrid<dim> &grid;         ///< with the mesh as it is
+    const dealii::Tensor<1, dim> gravity;    ///< m/s^2
     const SceneFeatures<dim> &further;       ///< what the scene has
     const std::list<SoilBody<dim>> &bodies;  ///< points of this rank
     const std::list<WaterPhase<dim>> &water; ///< points of this rank; empty without water
@@ -188,28 +258,10 @@ namespace scree
     const unsigned long long step;           ///< steps of the run
     const double time_step;                  ///< s
 
-    /// Kinetic, potential and elastic energy of the balance, with scaled masses, J.
-    double energy() const
+    /// What balances compare.
+    BalanceState<dim> balance() const
     {
-      return further.mass_scaling * sums.kinetic + sums.potential + sums.elastic;
-    }
-
-    /// Momentum of the balance, with scaled masses, N s.
-    dealii::Tensor<1, dim> momentum() const
-    {
-      return further.mass_scaling * sums.momentum;
-    }
-
-    /// What the impulses since the start do not explain of the momentum, N s.
-    double momentum_residual() const
-    {
-      return (momentum() - before.start_momentum - totals.impulse()).norm();
-    }
-
-    /// What known losses and work since the start do not explain of the energy, J.
-    double numerical_dissipation() const
-    {
-      return before.start_energy - energy() - totals.energy_taken();
+      return { before.start, further.mass_scaling, gravity, sums, totals, time, time_step };
     }
 
     /// Mean of the steps since the last row of what grows with each; 0 without a step.
@@ -286,6 +338,12 @@ namespace scree
                           const double time_step,
                           const UpdateReport &last_step);
 
+    /// The start of the run, once its first row has been made.
+    BalanceStart<dim> &start()
+    {
+      return history.start;
+    }
+
     /// Throws if a number of the last row, of a `time` in s, is none.
     void require_numbers(const double time) const;
 
@@ -320,7 +378,7 @@ namespace scree
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &history.has_start &history.start_momentum &history.start_energy;
+      archive &history.start;
       archive &last_row &history.step &history.time &history.balance &motion;
     }
 

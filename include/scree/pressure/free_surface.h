@@ -140,6 +140,12 @@ namespace scree
       return is_drained(face) && walls.pressure(1u << face) != 0.;
     }
 
+    /// Whether any does, or there is suction.
+    bool prescribes_values() const
+    {
+      return has_suction() || walls.has_pressure();
+    }
+
     /// Whether a cell of this rank has an unknown vertex.
     bool has_unknown(const unsigned int cell) const
     {

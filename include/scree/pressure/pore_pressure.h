@@ -80,6 +80,15 @@ namespace scree
       return schur.impulses(change, time_step, nullptr, &tractions);
     }
 
+    /// Whether there is suction, or a drained wall holds a pressure other than 0.
+    bool prescribes_values() const
+    {
+      return surface.prescribes_values();
+    }
+
+    /// The same of suction and of the pressure at drained walls, which do work. Collective.
+    const FlowField<dim> &prescribed_impulses(const double time_step);
+
     /// The same of a potential as of a pressure.
     const FlowField<dim> &impulses(const VertexVector &potential, const double time_step)
     {

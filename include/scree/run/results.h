@@ -56,6 +56,7 @@ namespace scree
                      scene.forcing.gravity(),
                      { !scene.loads.empty(),
                        parameters.water.volume_correction_rate > 0.,
+                       scene.has_pressure_work(),
                        parameters.water.viscosity > 0.,
                        !parameters.inflows.empty() || parameters.rain.is_set(),
                        parameters.contact_groups().n > 1,
@@ -91,22 +92,36 @@ namespace scree
       if (row_is_due || picture_is_due || output_times.checkpoint_is_due(time))
         folder.require_presence();
       if (row_is_due)
-        write_row(state,
-                  checks.look(scene.bodies, scene.water, state.totals.n_lost, time, state.step, at_start_or_end));
+        {
+          checks.look(scene.bodies, scene.water, state.totals.n_lost, time, state.step, at_start_or_end);
+          write_row(state);
+        }
       else if (picture_is_due)
         maps.sample(scene.bodies, time);
       if (picture_is_due)
         write_picture(state);
     }
 
+    /// Compares the balances at the end of a step with those of the start, once that has its row.
+    /// @param sums of all ranks, as the next one
+    void watch(const MovingSums<dim> &sums, const RunBalance<dim> &totals, const double time, const double time_step)
+    {
+      if (!balances.has_looked())
+        return;
+      BalanceStart<dim> &start             = statistics.start();
+      const dealii::Tensor<1, dim> gravity = scene.forcing.gravity();
+      const double mass_scaling            = scene.forcing.mass_scaling();
+      start.begin(time_step, gravity * start.momentum / mass_scaling);
+      balances.look({ start, mass_scaling, gravity, sums, totals, time, time_step });
+    }
+
     /// Output of the state as it is. Collective.
-    /// @param is_checked whether its balances are compared with the start
-    void write_row(const RunState<dim> &state, const bool is_checked = false)
+    void write_row(const RunState<dim> &state)
     {
       const Snapshot<dim> now = statistics.collect(
           scene.bodies, scene.water, state.totals, state.time, state.step, state.time_step, state.last_update);
-      if (is_checked)
-        balances.look(now);
+      if (!balances.has_looked())
+        balances.look(now.balance());
       rows.append(statistics.columns(), { statistics.values() });
       probes.write_rows(probed_state(state, scheme.water_view().get()));
       maps.sample(scene.bodies, state.time);

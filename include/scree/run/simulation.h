@@ -295,7 +295,8 @@ namespace scree
     }
 
     /// After a step: the points to the cells and ranks they are in now, and the speeds of all ranks for the next step.
-    void place_points(const double time_step, const Speeds &of_rank);
+    /// Watches the balances. Collective.
+    void place_points(const double time_step, const StepReport<dim> &step);
 
     /// Takes the speeds of the points as they are. Collective.
     void measure_speeds()
@@ -307,7 +308,8 @@ namespace scree
 
     /// Takes the largest over ranks; the first two are speeds of waves and points, for the next step. Also agrees on
     /// whether to stop. Collective.
-    void agree_on(std::vector<double> &largest);
+    /// @param sums are replaced by those over ranks
+    void agree_on(std::vector<double> &largest, const NumbersOf &sums = {});
 
     /// Throws if the motion is unstable.
     void require_stable_step(const double largest_step, const double first_step) const;
@@ -317,7 +319,7 @@ namespace scree
 
     /// Adds what left the box through open walls to the totals, and clears it. Throws if a point left through a closed
     /// one.
-    void account_for_lost_points();
+    void account_for_lost_points(const double time_step);
 
     /// Gathers a checkpoint, which is written while the run goes on. Collective.
     void begin_checkpoint();

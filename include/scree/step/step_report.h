@@ -4,6 +4,7 @@
 
 #include <scree/boundary/wall_impulses.h>
 #include <scree/materials/material.h>
+#include <scree/transfer/motion_sums.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
@@ -23,6 +24,7 @@ namespace scree
     template <class T>
     explicit NumbersOf(T &object)
     {
+      list.reserve(128); // more than most have
       object.serialize(*this, 0);
     }
 
@@ -35,13 +37,12 @@ namespace scree
     /// Replaces each number by its sum over ranks. Collective.
     void sum_over_ranks(const MPI_Comm communicator) const
     {
-      std::vector<double> sums; // one message for all
-      for (const double *number : list)
-        sums.push_back(*number);
-      dealii::Utilities::MPI::sum(sums, communicator, sums);
-      for (std::size_t i = 0; i < sums.size(); ++i)
-        *list[i] = sums[i];
+      std::vector<double> none;
+      sum_over_ranks(communicator, none);
     }
+
+    /// The same, and replaces others by the largest of all ranks, with one message for all. Collective.
+    void sum_over_ranks(const MPI_Comm communicator, std::vector<double> &largest) const;
 
     /// Appends the numbers of an object.
     template <class T>
@@ -125,6 +126,7 @@ namespace scree
     double viscous_dissipation = 0;              ///< of water and suspended soil, J
     double load_work           = 0;              ///< of the surface load, J
     double correction_work     = 0;              ///< of the volume correction against gravity, J
+    double pressure_work       = 0;              ///< of suction and of pressure at drained walls, J
     double motion              = 0; ///< integral of the kinetic energy over time, only with mass scaling, J s
 
     // Counts; doubles hold them exactly and travel like the rest.
@@ -171,7 +173,7 @@ namespace scree
       archive &wall_impulse &body_impulse &pressure_impulse &load_impulse &bed_impulse;
       archive &soil_walls &water_walls &obstacles;
       archive &wall_dissipation &bed_dissipation &contact_dissipation;
-      archive &drag_dissipation &viscous_dissipation &load_work &correction_work &motion;
+      archive &drag_dissipation &viscous_dissipation &load_work &correction_work &pressure_work &motion;
       archive &n_iterations &n_preconditioners &n_viscous_iterations &n_cavitating;
     }
   };
@@ -273,6 +275,8 @@ namespace scree
     Budget<dim> balance;   ///< momentum and energy at the nodes
     UpdateReport material; ///< what the stress updates reported
     Speeds speeds;         ///< of the points at the end of the step
+    MotionSums<dim> soil,  ///< of what moves, at the end of the step; what ground pushes out counts in the next one
+        water;             ///< at the end of the step
     double n_updates = 0;  ///< points of soil and water that moved
   };
 } // namespace scree

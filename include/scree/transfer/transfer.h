@@ -6,6 +6,7 @@
 #include <scree/mesh/node_values.h>
 #include <scree/particles/point_set.h>
 #include <scree/transfer/f_bar.h>
+#include <scree/transfer/motion_sums.h>
 #include <scree/transfer/skeleton_damping.h>
 #include <scree/transfer/transfer_parameters.h>
 #include <scree/transfer/volume_projection.h>
@@ -16,9 +17,11 @@
 namespace scree
 {
   /// What a pass from the grid to the points found out; cells add up.
+  template <int dim>
   struct MotionReport
   {
     double largest_speed = 0; ///< m/s; not a number if any point's is not
+    MotionSums<dim> sums;     ///< at the end of the step
     UpdateReport material;    ///< what the stress updates reported
   };
 
@@ -47,10 +50,10 @@ namespace scree
     /// Velocity, position, volume, F-bar, stress and state of the points at the end of a step of `time_step` s, from
     /// the nodes' end-of-step velocity and its change. The points are not sorted yet. Collective.
     /// @param damping_time of the skeleton, s; read if the points have a stress of damping
-    MotionReport to_points(SoilBody<dim> &body,
-                           const NodalField<dim> &field,
-                           const double time_step,
-                           const double damping_time = 0.);
+    MotionReport<dim> to_points(SoilBody<dim> &body,
+                                const NodalField<dim> &field,
+                                const double time_step,
+                                const double damping_time = 0.);
 
   private:
     template <int n, bool is_affine, bool is_damped>
@@ -58,7 +61,7 @@ namespace scree
 
     /// to_points() for cells of n nodes along each axis.
     template <int n, TransferMethod method>
-    MotionReport
+    MotionReport<dim>
     move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step, const double damping_time);
 
     /// Velocity, place and affine field of a cell's points; into `motion` from number `first` on what the rest needs.
@@ -71,7 +74,8 @@ namespace scree
                    const double time_step,
                    const double keep,
                    const unsigned int first,
-                   LargestSquare &largest);
+                   LargestSquare &largest,
+                   MotionSums<dim, Batch> &sums);
 
     /// Cells one behind the other.
     struct Block

@@ -83,11 +83,12 @@ namespace scree
     /// Whether points carry an affine velocity field, see carries_affine().
     bool carries_affine_field() const;
 
-    /// Twice the energy of a point's affine velocity field over its mass and the square of the field: h^2/4 with AFLIP,
-    /// the inertia of quadratic splines about a point, @source{jiang2015}; 0 with others, as TPIC sets it anew in each
-    /// step.
-    /// @param cell_size h, m
-    double affine_inertia(const double cell_size) const;
+    /// Whether a point's affine velocity field has an energy, see square_of_affine(): with AFLIP; TPIC sets it anew in
+    /// each step.
+    bool has_affine_energy() const
+    {
+      return transfer_method() == TransferMethod::aflip;
+    }
 
     /// Courant number at which elastic soil is stable, with spline and linear bases, wherever its points are, and
     /// fronts do not depend on the time step (doc/theory/single_phase.md, doc/verification/convergence.md).
@@ -101,7 +102,7 @@ namespace scree
   struct StabilisationParameters
   {
     std::string f_bar       = "projected"; ///< projected | none | standard | modified
-    double skeleton_damping = 0.5;        ///< damping time over cell size per wave speed, see SkeletonDamping
+    double skeleton_damping = 0.5;         ///< damping time over cell size per wave speed, see SkeletonDamping
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);

@@ -308,23 +308,6 @@ namespace scree
   }
 
 
-  double MohrCoulomb::energy(const PrincipalValues &strain) const
-  {
-    PrincipalValues closed = strain; // closes one axis after the other
-    std::sort(closed.rbegin(), closed.rend());
-    const auto sum    = [](const PrincipalValues &values) { return values[0] + values[1] + values[2]; };
-    const double lame = bulk - 2. / 3. * shear_modulus;
-    for (unsigned int n = 1;
-         n <= 3 && lame * sum(closed) + 2 * shear_modulus * closed[n - 1] > largest_principal_stress;
-         ++n)
-      {
-        const double rest = std::accumulate(closed.begin() + n, closed.end(), 0.);
-        std::fill_n(closed.begin(), n, (largest_principal_stress - lame * rest) / (n * lame + 2 * shear_modulus));
-      }
-    return elastic.energy(closed) + largest_principal_stress * (sum(strain) - sum(closed));
-  }
-
-
   void MohrCoulomb::initialise(const PrincipalValues &wanted_stress,
                                PrincipalValues &strain,
                                PrincipalValues &stress,

@@ -36,9 +36,10 @@ namespace scree
       {
         return 0.;
       }
-      double energy(const PrincipalValues &) const
+      template <typename Number>
+      Number energy(const PrincipalNumbers<Number> &) const
       {
-        return 0.;
+        return simd::broadcast<Number>(0.);
       }
       template <typename Number>
       LawResponse<Number>

@@ -29,13 +29,13 @@ MOUNTAINS = {"thin, rough": {}, "cut-off rim": {"rim": "cut"}, "smooth": {"relie
 def numbers_of(folder, run, cell, is_of_map):
     """What the bounds are about, from log and statistics of a run."""
     log = (folder / run / "log.txt").read_text(encoding="utf-8")
-    gain = re.findall(r"largest energy gain (\S+) %", log)
+    gains = re.findall(r"largest energy gain (?:of [^%]* )?(\S+) %", log[log.rindex("Checks "):])
     patterns = {"speed": r"fastest point (\S+) times", "V/V_0": r"smallest V/V_0 ([^\s;]+)", "stress": r"largest stress (\S+) of", "depth": r"deepest point (\S+) m"}
     found = {name: re.findall(pattern, log[log.rindex("Checks "):])[0] for name, pattern in patterns.items()}
     table, release = results.read_statistics(folder / run), results.read_raster(folder / "release.asc")
     return {"speed": float(found["speed"]), "depth": float(found["depth"]) / cell, "lost": table["Points lost"][-1],
             "mass": abs(table["Mass (kg)"][0] / (BULK_DENSITY * release.values.clip(0).sum() * release.width**2) - 1) if is_of_map else np.nan,
-            "energy": float(gain[-1]) / 100,
+            "energy": max(map(float, gains)) / 100,
             "stress": float(found["stress"]), "V/V_0": float(found["V/V_0"])}
 
 

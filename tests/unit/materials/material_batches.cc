@@ -142,7 +142,8 @@ void compare_reports(const UpdateReport &one, const UpdateReport &batch, const s
           name + ": counts differ");
   require(agree(one.largest_bulk_modulus, batch.largest_bulk_modulus) &&
               agree(one.largest_compression, batch.largest_compression) &&
-              agree(one.plastic_dissipation, batch.plastic_dissipation),
+              agree(one.plastic_dissipation, batch.plastic_dissipation) &&
+              agree(one.elastic_energy, batch.elastic_energy),
           name + ": sums differ");
 }
 

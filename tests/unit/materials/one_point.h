@@ -197,6 +197,11 @@ private:
           }
         frame.compose(tau, stress);
       }
+    const auto sigma = matrix_of_components<dim>(stress);
+    double work      = dim == 2 ? stress[2] * (stretch - 1) : 0;
+    for (unsigned int i = 0; i < dim * dim; ++i)
+      work += sigma[i / dim][i % dim] * change[i / dim][i % dim];
+    report.elastic_energy += motion.reference_volume[p] * (this->elastic_energy(b) - 0.5 * J * work);
     return dissipation;
   }
 
@@ -237,7 +242,7 @@ double energy_slope(const Law &law, const PrincipalValues &strain, const unsigne
   PrincipalValues more = strain, less = strain;
   more[k] += step;
   less[k] -= step;
-  return (law.energy(more) - law.energy(less)) / (2 * step);
+  return (energy_of<double>(law, more) - energy_of<double>(law, less)) / (2 * step);
 }
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The background grid's shape functions: constants and linear fields are reproduced to rounding, a random field has no
-// jump across a face (splines: nor has its gradient), and nodes are as many as the tensor product of the
-// one-dimensional bases has.
+// jump across a face (splines: nor has its gradient), nodes are as many as the tensor product of the one-dimensional
+// bases has, and their inertia about a place is that of a sum over them.
 #include "../test.h"
 
 #include <map>
@@ -32,6 +32,37 @@ double linear_error(const BackgroundGrid<dim> &grid)
             }
         }
   return Utilities::MPI::max(error, grid.communicator());
+}
+
+/// Largest error of the second moments at random places of all cells and at their corners, cell widths squared, and the
+/// largest moment across a wall on it.
+template <int dim>
+std::pair<double, double> moment_errors(const BackgroundGrid<dim> &grid)
+{
+  RandomNumbers random;
+  std::pair<double, double> errors(0., 0.);
+  for (const auto &cell : grid.triangulation().active_cell_iterators())
+    if (cell->is_locally_owned())
+      for (unsigned int sample = 0; sample < 20; ++sample)
+        {
+          const OpenKnots open = grid.open_knots(cell->active_cell_index());
+          const Point<dim> x =
+              sample < 2 ? point_of<dim>([&](const unsigned int) { return double(sample); }) : random.point<dim>(0, 1);
+          const Point<dim> place = cell->vertex(0) + grid.cell_size() * Tensor<1, dim>(x);
+          for (unsigned int a = 0; a < dim; ++a)
+            {
+              double sum = 0.;
+              visit_nodes(grid, cell->active_cell_index(), x, [&](const unsigned int node, const double value) {
+                sum += value * std::pow((grid.node_position(node)[a] - place[a]) / grid.cell_size(), 2);
+              });
+              const double moment =
+                  with_nodes_1d(grid, [&](auto n) { return CellBasis<dim, n>::second_moment(x[a], open, a); });
+              errors.first = std::max(errors.first, std::abs(moment - sum));
+              if (sample < 2 && (open >> (2 * a + sample) & 1))
+                errors.second = std::max(errors.second, std::abs(moment));
+            }
+        }
+  return { max_of_ranks(errors.first), max_of_ranks(errors.second) };
 }
 
 /// Largest jumps of a random field and of its gradient (times the cell size) across the faces of the mesh; the two
@@ -99,6 +130,9 @@ void test(const std::string &basis, const std::array<unsigned int, dim> &cells)
 
   // Sums of 3^dim products of numbers of size 1: rounding stays below 100 units in the last place.
   expect(linear_error(grid), 0, 3e-14, "error of linear fields");
+  const auto [moment_error, moment_on_walls] = moment_errors(grid);
+  expect(moment_error, 0, 3e-14, "error of second moments");
+  expect(moment_on_walls, 0, 1e-14, "second moment on walls");
   // A random field's gradient is of size 1 per cell.
   const auto [value_jump, gradient_jump] = jumps(grid);
   expect(value_jump, 0, 1e-13, "jump of the field");

@@ -186,7 +186,7 @@ void test_carried_water()
   expect(wet.mass_outside_soil, 0., 0., "carried water outside soil");
   expect(wet.volume_error, 0., 1e-12, "volume error of full pores");
 
-  const PointSums<dim> sums(scene.bodies, scene.water, Tensor<1, dim>(), MPI_COMM_WORLD);
+  const PointSums<dim> sums(scene.bodies, scene.water, Tensor<1, dim>(), scene.grid);
   expect(sums.momentum[0], (1000. * 2. + 500. * 3.) * volume, 1e-8, "momentum of soil and water");
   expect(sums.kinetic, 0.5 * (1000. * 4. + 500. * 9.) * volume, 1e-8, "kinetic energy of soil and water");
   expect(sums.largest_porosity, 0.5, 1e-12, "porosity");

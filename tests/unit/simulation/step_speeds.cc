@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Speeds that limit a step: the largest, and a point whose speed is not a number is told in whatever order it comes.
+// Speeds that limit a step: the largest, and a point whose speed is not a number is told in whatever order it comes;
+// largest values and sums over ranks by one message.
 #include "../test.h"
 
 #include <scree/step/step_report.h>
@@ -21,5 +22,18 @@ const UnitTest registered("step_speeds", [] {
       require(is_number ? speeds.points == 3. : std::isnan(speeds.points), "speed of the points");
       expect(speeds.wave, std::isnan(of_bodies[1]) ? 20. : 30., 0., "speed of the waves");
     }
+
+  const double rank    = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD),
+               n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  double mass = 1. + rank, loss = -rank;
+  std::vector<double> largest{ rank, -rank, 7. };
+  NumbersOf{ &mass, &loss }.sum_over_ranks(MPI_COMM_WORLD, largest);
+  expect(largest[0], n_ranks - 1., 0., "largest rank");
+  expect(largest[1], 0., 0., "least rank");
+  expect(largest[2], 7., 0., "largest of equal numbers");
+  expect(mass, n_ranks * (n_ranks + 1.) / 2., 0., "sum over ranks");
+  expect(loss, -n_ranks * (n_ranks - 1.) / 2., 0., "sum of losses");
 });
 } // namespace test_step_speeds
+
+// Runs with mpirun=1,2.

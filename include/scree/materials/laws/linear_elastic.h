@@ -64,10 +64,10 @@ namespace scree
     }
 
     /// J per m^3 of reference volume.
-    double energy(PrincipalValues strain) const
+    template <typename Number>
+    Number energy(const StrainInvariants<Number> &strain) const
     {
-      const auto [volume, square, third] = take_invariants<double>(strain);
-      return 0.5 * bulk * volume * volume + shear_modulus * square;
+      return 0.5 * bulk * strain.volume * strain.volume + shear_modulus * strain.square;
     }
 
     /// See Material::initialise().

@@ -447,7 +447,33 @@ namespace scree
     }
 
     /// J per m^3 of reference volume: elastic energy, and the work of the cut-off in what is open.
-    double energy(const PrincipalValues &strain) const;
+    template <typename Number>
+    Number energy(const PrincipalNumbers<Number> &strain) const
+    {
+      const Number limit = simd::broadcast<Number>(largest_principal_stress);
+      const double lame = bulk - 2. / 3. * shear_modulus, twice = 2. * shear_modulus;
+      const Number larger = simd::max<Number>(strain[0], strain[1]), smaller = simd::min<Number>(strain[0], strain[1]);
+      const Number e[]   = { simd::max<Number>(larger, strain[2]),
+                             simd::max<Number>(smaller, simd::min<Number>(larger, strain[2])),
+                             simd::min<Number>(smaller, strain[2]) }; // from the largest on
+      const Number sum   = e[0] + e[1] + e[2];
+      const auto is_open = lame * sum + twice * e[0] > limit;
+      PrincipalNumbers<Number> closed{ { e[0], e[1], e[2] } };
+      if (simd::any(is_open)) // closes one axis after the other
+        {
+          const Number one  = (limit - lame * (e[1] + e[2])) * (1. / (lame + twice));
+          const Number two  = (limit - lame * e[2]) * (1. / (2. * lame + twice));
+          const auto second = is_open & (lame * (one + e[1] + e[2]) + twice * e[1] > limit);
+          const auto third  = second & (lame * (2. * two + e[2]) + twice * e[2] > limit);
+          const Number all  = limit * (1. / (3. * lame + twice));
+          closed[0]         = simd::select<Number>(is_open, simd::select<Number>(second, two, one), closed[0]);
+          closed[1]         = simd::select<Number>(second, two, closed[1]);
+          for (Number &value : closed)
+            value = simd::select<Number>(third, all, value);
+        }
+      const Number rest = sum - (closed[0] + closed[1] + closed[2]);
+      return elastic.energy(take_invariants<Number>(closed)) + limit * rest;
+    }
 
     /// See ConstitutiveLaw.
     template <typename Number>

@@ -144,9 +144,11 @@ namespace scree
     }
 
     /// J/m^3 of reference volume.
-    double energy(const double volume_strain, const double shear_strain) const
+    /// @param shear_square e_s^2
+    template <typename Number>
+    Number energy(const Number &volume_strain, const Number &shear_square) const
     {
-      return kappa * std::exp(log_pressure(volume_strain)) + 1.5 * G * shear_strain * shear_strain;
+      return kappa * simd::exp<Number>(log_pressure(volume_strain)) + 1.5 * G * shear_square;
     }
 
     static constexpr double log_zero_strain_pressure = 6.907755278982137; ///< ln(1 kPa/1 Pa)
@@ -227,12 +229,14 @@ namespace scree
     }
 
     /// Stored energy W, J/m^3 of reference volume.
-    double energy(const double volume_strain, const double shear_strain) const
+    /// @param shear_square e_s^2
+    template <typename Number>
+    Number energy(const Number &volume_strain, const Number &shear_square) const
     {
-      const double X = opening(volume_strain);
-      return X <= 0. ? 0.
-                     : p_r / (k * (2. - n)) *
-                           std::pow(X * X + 3. * g * k_n * shear_strain * shear_strain, 0.5 * (2. - n) * inverse);
+      const Number X = opening(volume_strain), zero = simd::broadcast<Number>(0.);
+      const Number square = simd::select<Number>(X > 0., X * X + 3. * g * k_n * shear_square, zero + 1.);
+      const Number power  = simd::exp<Number>(0.5 * (2. - n) * inverse * simd::log<Number>(square));
+      return simd::select<Number>(X > 0., p_r / (k * (2. - n)) * power, zero);
     }
 
     double n,           ///< exponent of both moduli
@@ -316,10 +320,10 @@ namespace scree
     }
 
     /// J per m^3 of reference volume.
-    double energy(PrincipalValues strain) const
+    template <typename Number>
+    Number energy(const StrainInvariants<Number> &strain) const
     {
-      const auto [volume, square, third] = take_invariants<double>(strain);
-      return elastic.energy(-volume, std::sqrt(2. / 3. * square));
+      return elastic.template energy<Number>(-1. * strain.volume, 2. / 3. * strain.square);
     }
 
     /// See ConstitutiveLaw.
