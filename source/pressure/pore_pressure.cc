@@ -25,7 +25,7 @@ namespace scree
       , part(grid, vertices, surface, cut_cells, ground_gaps)
       , pair(grid, vertices, part)
       , schur(grid, vertices, surface, part, pair)
-      , solver(grid, vertices, schur, parameters)
+      , solver(grid, vertices, surface, schur, parameters)
   {
     reinit_vectors();
   }
@@ -110,14 +110,9 @@ namespace scree
       find_mobilities(mixture, time_step);
       schur.assemble(mixture, pressed_nodes, rows, time_step);
       schur.find_source(nodes, pressure, source);
-      surface.clear(change);
       const double storage = bulk_modulus > 0 ? 1. / (bulk_modulus * time_step) : 0.;
       solver.assemble(
-          mixture,
-          surface,
-          time_step,
-          [&](const unsigned int vertex) { return storage * surface.water_volume(vertex); },
-          rows);
+          mixture, time_step, [&](const unsigned int vertex) { return storage * surface.water_volume(vertex); }, rows);
     }
     const TimedPart timed(timer, TimerSection::pressure_solve);
     const auto result =

@@ -25,12 +25,13 @@ namespace scree
   template <int dim>
   PressureSolver<dim>::PressureSolver(const BackgroundGrid<dim> &grid,
                                       const NodeNumbering<dim> &vertices,
+                                      const FreeSurface<dim> &surface,
                                       SchurOperator<dim> &schur,
                                       const PressureParameters &parameters)
       : grid(grid)
       , vertices(vertices)
-      , numbering(grid, vertices)
-      , system(grid, vertices, numbering)
+      , surface(surface)
+      , system(grid, vertices)
       , maximum_iterations(parameters.maximum_iterations)
       , schur(schur)
       , program(
@@ -45,7 +46,7 @@ namespace scree
   template <int dim>
   void PressureSolver<dim>::reinit()
   {
-    numbering.reinit();
+    system.reinit();
     preconditioner.reset();
     of_schur.reinit(vertices.partitioner());
     times_schur.reinit(vertices.partitioner());
@@ -55,28 +56,19 @@ namespace scree
 
   template <int dim>
   void PressureSolver<dim>::assemble(const Mixture<dim> &mixture,
-                                     const FreeSurface<dim> &surface,
                                      const double time_step,
                                      const std::function<double(unsigned int vertex)> &storage,
                                      GroundRows<dim> *of_ground)
   {
-    if (numbering.update(mixture))
-      {
-        system.reinit();
-        program.reinit(numbering.partitioner());
-        flow_of_pressure.pressures.reinit(numbering.partitioner());
-        is_worn = true;
-      }
     system.assemble(mixture, surface, time_step, storage);
-    storage_of_number.assign(system.n_owned(), 0.);
-    diagonal_of_number.assign(system.n_owned(), 0.);
+    storage_of_unknown.clear();
+    diagonal.clear();
     schur.find_diagonal(times_schur);
-    for (unsigned int i = 0; i < storage_of_number.size(); ++i)
-      if (system.is_unknown(i))
-        {
-          storage_of_number[i]  = storage(numbering.vertex(i));
-          diagonal_of_number[i] = times_schur.local_element(numbering.vertex(i)) + storage_of_number[i];
-        }
+    for (const unsigned int vertex : system.unknowns())
+      {
+        storage_of_unknown.push_back(storage(vertex));
+        diagonal.push_back(times_schur.local_element(vertex) + storage(vertex));
+      }
     if (of_ground)
       of_ground->set_mobilities(schur.mobilities());
   }
@@ -85,14 +77,13 @@ namespace scree
   template <int dim>
   void PressureSolver<dim>::vmult(Vector &target, const Vector &source)
   {
-    for (unsigned int i = 0; i < system.n_owned(); ++i)
-      of_schur.local_element(numbering.vertex(i)) = system.is_unknown(i) ? source.pressures.local_element(i) : 0.;
+    const std::vector<unsigned int> &unknowns = system.unknowns();
+    for (unsigned int i = 0; i < unknowns.size(); ++i)
+      of_schur.local_element(unknowns[i]) = source.pressures[i];
     schur.vmult(times_schur, target.tractions, of_schur, source.tractions);
-    for (unsigned int i = 0; i < system.n_owned(); ++i)
-      target.pressures.local_element(i) = system.is_unknown(i)
-                                              ? times_schur.local_element(numbering.vertex(i)) +
-                                                    storage_of_number[i] * source.pressures.local_element(i)
-                                              : 0.;
+    target.pressures.resize(unknowns.size());
+    for (unsigned int i = 0; i < unknowns.size(); ++i)
+      target.pressures[i] = times_schur.local_element(unknowns[i]) + storage_of_unknown[i] * source.pressures[i];
     constexpr double regularisation = 1e-7; // the rows of small facets nearly depend on those beside them
     for (unsigned int k = 0; k < target.tractions.size(); ++k)
       {
@@ -105,12 +96,11 @@ namespace scree
 
 
   template <int dim>
-  void PressureSolver<dim>::take(const VertexVector &from, VertexVector &to) const
+  void PressureSolver<dim>::take(const VertexVector &from, std::vector<double> &to) const
   {
-    to = 0.;
-    for (unsigned int i = 0; i < system.n_owned(); ++i)
-      if (system.is_unknown(i))
-        to.local_element(i) = from.local_element(numbering.vertex(i));
+    to.clear();
+    for (const unsigned int vertex : system.unknowns())
+      to.push_back(from.local_element(vertex));
   }
 
 
@@ -118,10 +108,9 @@ namespace scree
   void PressureSolver<dim>::precondition(Vector &target, const Vector &source)
   {
     preconditioner->vmult(target.pressures, source.pressures);
-    for (unsigned int i = 0; i < system.n_owned(); ++i)
-      if (diagonal_of_number[i] > 0.) // else no part of a cell reaches the vertex
-        target.pressures.local_element(i) +=
-            part_of_diagonal / diagonal_of_number[i] * source.pressures.local_element(i);
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      if (diagonal[i] > 0.) // else no part of a cell reaches the vertex
+        target.pressures[i] += part_of_diagonal / diagonal[i] * source.pressures[i];
     if (ground)
       ground->precondition(source.tractions, target.tractions);
   }
@@ -187,7 +176,6 @@ namespace scree
     // slip.
     constexpr double part_of_response    = 0.3;
     constexpr double most_over_available = 1e6; // Less friction than that is none.
-    program.find_residual();
     for (unsigned int k = 0; k < ground->all.size(); ++k)
       {
         GroundRow<dim> &row      = ground->all[k];
@@ -211,6 +199,7 @@ namespace scree
           traction -= (1. - available / along.norm()) * along;
         row.held = HeldMotion::all;
       }
+    program.find_residual();
   }
 
 
@@ -242,25 +231,41 @@ namespace scree
 
 
   template <int dim>
+  void PressureSolver<dim>::start_pressures(const Task &task, const VertexVector &change)
+  {
+    std::vector<double> least_change;
+    for (const unsigned int vertex : system.unknowns())
+      if (task.has_pressure)
+        least_change.push_back(task.least_pressure - task.pressure.local_element(vertex));
+    const auto start = [&] {
+      program.set_bounds(least_change, diagonal);
+      program.find_residual();
+    };
+    take(change, program.solution.pressures);
+    start();
+    // The bound on the energy holds from a first guess that makes none.
+    if (!task.has_pressure || Utilities::MPI::sum(program.energy(), grid.communicator()) > 0.)
+      {
+        std::fill(program.solution.pressures.begin(), program.solution.pressures.end(), 0.);
+        start();
+      }
+  }
+
+
+  template <int dim>
   typename PressureSolver<dim>::Result
   PressureSolver<dim>::solve(const Task &task, VertexVector &change, GroundRows<dim> *of_ground)
   {
     constexpr double alone = 0.1; // of the tolerance: rows beside a held pressure decide on creep
     ground                 = of_ground;
-    program.begin(ground ? &ground->all : nullptr);
+    program.begin(diagonal.size(), ground ? &ground->all : nullptr);
     take(task.pressure, program.solution.pressures);
     vmult(flow_of_pressure, program.solution);
     take(task.flow, program.source.pressures);
-    take(change, program.solution.pressures);
     const bool rubs = start_rows();
     const double tolerance =
         find_tolerance(task.has_pressure ? task.relative_tolerance : alone * task.relative_tolerance);
-    std::vector<double> least_change; // of the pressure
-    for (unsigned int i = 0; task.has_pressure && i < system.n_owned(); ++i)
-      least_change.push_back(system.is_unknown(i)
-                                 ? task.least_pressure - task.pressure.local_element(numbering.vertex(i))
-                                 : -std::numeric_limits<double>::infinity());
-    program.set_bounds(least_change, diagonal_of_number);
+    start_pressures(task, change);
     Result result;
     if (rubs) // twice, with friction by what was found before
       {
@@ -272,9 +277,9 @@ namespace scree
     converge(tolerance, rubs ? result.further : result.first);
     if (task.has_pressure)
       result.n_cavitating = program.n_held();
-    for (unsigned int i = 0; i < system.n_owned(); ++i)
-      change.local_element(numbering.vertex(i)) =
-          system.is_unknown(i) ? program.solution.pressures.local_element(i) : 0.;
+    surface.clear(change);
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      change.local_element(system.unknowns()[i]) = program.solution.pressures[i];
     for (unsigned int k = 0; ground && k < ground->all.size(); ++k)
       ground->all[k].traction = program.solution.tractions[k];
     return result;

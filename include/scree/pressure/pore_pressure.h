@@ -64,7 +64,7 @@ namespace scree
                    const double time_step)
     {
       part.find(mixture, holds, time_step);
-      schur.begin_step(mixture);
+      schur.begin_step();
       pair.find_moments(volume);
     }
 
