@@ -96,6 +96,44 @@ namespace scree
                            "Water, or a box that is higher than the water."));
   }
 
+
+  template <int dim>
+  void PressureOperator<dim>::save(PreconditionerState &state) const
+  {
+    const FineCells<dim> &cells = grid.fine_cells();
+    state.mobilities.clear();
+    state.diagonal.clear();
+    for (const Cell &cell : wet_cells)
+      state.mobilities.emplace_back(cells.cells()[cells.of_index(cell.cell)].number, cell.mobility);
+    for (const unsigned int vertex : unknown_vertices)
+      state.diagonal.emplace_back(place_of_vertex(grid, vertices, vertex), added_to_diagonal(vertex));
+  }
+
+
+  template <int dim>
+  void PressureOperator<dim>::load(const PreconditionerState &state)
+  {
+    std::map<std::uint64_t, unsigned int> own_cells;
+    for (const auto &cell : grid.fine_cells().cells())
+      if (grid.fine_cells().is_owned(cell))
+        own_cells[cell.number] = cell.index;
+    reinit();
+    wet_cells.clear();
+    for (const auto &[place, mobility] : state.mobilities)
+      if (const auto cell = own_cells.find(place); cell != own_cells.end())
+        {
+          wet_cells.push_back({ cell->second, mobility });
+          diagonals.activate_cell(cell->second);
+        }
+    const auto own_vertices = vertices_by_place(grid, vertices);
+    for (const auto &[place, number] : state.diagonal)
+      if (const auto vertex = own_vertices.find(place); vertex != own_vertices.end())
+        {
+          unknown_vertices.push_back(vertex->second);
+          diagonals[vertex->second][added] = number;
+        }
+  }
+
   template class PressureOperator<2>;
   template class PressureOperator<3>;
 } // namespace scree

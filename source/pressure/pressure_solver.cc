@@ -50,7 +50,7 @@ namespace scree
     preconditioner.reset();
     of_schur.reinit(vertices.partitioner());
     times_schur.reinit(vertices.partitioner());
-    is_worn = true;
+    own_state = PreconditionerState();
   }
 
 
@@ -126,12 +126,14 @@ namespace scree
       return last.residual <= accepted;
     };
     // A front that enters new cells can make the kept preconditioner useless within a step.
-    const unsigned int patience = std::min(maximum_iterations, iterations_when_new + iterations_worth_a_preconditioner);
+    const unsigned int patience =
+        std::min(maximum_iterations, own_state.iterations_when_new + iterations_worth_a_preconditioner);
     if (accepted > 0. && // else nothing flows
-        (is_worn || !has_converged(patience)))
+        (own_state.is_worn || !has_converged(patience)))
       {
         preconditioner.reset(); // before the next one takes memory
-        preconditioner             = std::make_unique<PressurePreconditioner<dim>>(system);
+        preconditioner = std::make_unique<PressurePreconditioner<dim>>(system);
+        system.save(own_state);
         report.made_preconditioner = true;
         const bool is_done         = has_converged(maximum_iterations);
         AssertThrow(
@@ -140,9 +142,9 @@ namespace scree
                        " iterations the residual is " + std::to_string(last.residual / accepted) +
                        " times the accepted one. Remedies: a smaller 'Courant number' in subsection Time step, "
                        "more 'Maximum iterations' or a larger 'Relative tolerance' in subsection Water/Pressure."));
-        is_worn             = false;
-        iterations_when_new = last.n;
-        surplus_iterations  = 0;
+        own_state.is_worn             = false;
+        own_state.iterations_when_new = last.n;
+        own_state.surplus_iterations  = 0;
       }
   }
 
@@ -289,10 +291,32 @@ namespace scree
   template <int dim>
   void PressureSolver<dim>::update_preconditioner_age(const SolveReport &report)
   {
-    if (report.made_preconditioner || is_worn) // worn still: nothing flowed, so that none was made
+    if (report.made_preconditioner || own_state.is_worn) // worn still: nothing flowed, so that none was made
       return;
-    surplus_iterations += std::max(int(report.n_iterations) - int(iterations_when_new), 0);
-    is_worn = surplus_iterations > iterations_worth_a_preconditioner;
+    own_state.surplus_iterations += std::max(int(report.n_iterations) - int(own_state.iterations_when_new), 0);
+    own_state.is_worn = own_state.surplus_iterations > iterations_worth_a_preconditioner;
+  }
+
+
+  template <int dim>
+  PreconditionerState PressureSolver<dim>::state() const
+  {
+    PreconditionerState all = own_state;
+    all.mobilities          = join(grid.communicator(), own_state.mobilities);
+    all.diagonal            = join(grid.communicator(), own_state.diagonal);
+    return all;
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::load(const PreconditionerState &state)
+  {
+    own_state = state;
+    if (state.is_worn)
+      return;
+    system.load(state);
+    system.save(own_state); // of this rank alone
+    preconditioner = std::make_unique<PressurePreconditioner<dim>>(system);
   }
 
   template class PressureSolver<2>;

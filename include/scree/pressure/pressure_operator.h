@@ -3,6 +3,7 @@
 #define scree_pressure_pressure_operator_h
 
 #include <scree/pressure/free_surface.h>
+#include <scree/pressure/solver_state.h>
 
 #include <functional>
 #include <vector>
@@ -38,6 +39,12 @@ namespace scree
                   const FreeSurface<dim> &surface,
                   const double time_step,
                   const std::function<double(unsigned int vertex)> &storage);
+
+    /// Writes cells and diagonal of this rank into the state of a preconditioner that is made from them.
+    void save(PreconditionerState &state) const;
+
+    /// Sets what of them this rank has: the matrix for that preconditioner.
+    void load(const PreconditionerState &state);
 
     /// The owned vertices whose pressure is a degree of freedom.
     const std::vector<unsigned int> &unknowns() const

@@ -85,6 +85,12 @@ namespace scree
     /// Has the preconditioner made anew by the next solve if it has become worse: to be told of the solves of one kind.
     void update_preconditioner_age(const SolveReport &report);
 
+    /// The preconditioner's state on all ranks. Collective.
+    PreconditionerState state() const;
+
+    /// Makes the preconditioner of a state, after reinit(). Collective.
+    void load(const PreconditionerState &state);
+
   private:
     using Vector = PressuresAndTractions<dim>;
 
@@ -131,8 +137,7 @@ namespace scree
 
     std::unique_ptr<PressurePreconditioner<dim>> preconditioner;
     static constexpr unsigned int iterations_worth_a_preconditioner = 200; // what making it costs, measured
-    unsigned int iterations_when_new = 0, surplus_iterations = 0;
-    bool is_worn = true;
+    PreconditionerState own_state;                                         // of this rank
   };
 } // namespace scree
 
