@@ -201,7 +201,6 @@ namespace scree
           traction -= (1. - available / along.norm()) * along;
         row.held = HeldMotion::all;
       }
-    program.find_residual();
   }
 
 
@@ -243,12 +242,20 @@ namespace scree
       program.set_bounds(least_change, diagonal);
       program.find_residual();
     };
-    take(change, program.solution.pressures);
+    std::vector<double> &guess = program.solution.pressures;
+    guess.assign(diagonal.size(), 0.);
+    if (ground) // Friction must not depend on whether there is a guess.
+      {
+        start();
+        choose_friction();
+      }
+    if (task.has_pressure)
+      take(change, guess);
     start();
     // The bound on the energy holds from a first guess that makes none.
-    if (!task.has_pressure || Utilities::MPI::sum(program.energy(), grid.communicator()) > 0.)
+    if (task.has_pressure && Utilities::MPI::sum(program.energy(), grid.communicator()) > 0.)
       {
-        std::fill(program.solution.pressures.begin(), program.solution.pressures.end(), 0.);
+        guess.assign(diagonal.size(), 0.);
         start();
       }
   }
@@ -272,9 +279,9 @@ namespace scree
     if (rubs) // twice, with friction by what was found before
       {
         constexpr double coarser = 3.;
-        choose_friction();
         converge(coarser * tolerance, result.first);
         choose_friction();
+        program.find_residual();
       }
     converge(tolerance, rubs ? result.further : result.first);
     if (task.has_pressure)

@@ -114,11 +114,11 @@ namespace scree
     /// @return whether there are some with friction on any rank
     bool start_rows();
 
-    /// Puts the first guess of a pressure's change into the program, within its bounds; finds the residual. Collective.
+    /// Chooses friction, puts the first guess of the change of p into the program and finds the residual. Collective.
     void start_pressures(const Task &task, const VertexVector &change);
 
     /// Chooses the compliances of the rows along the ground anew, so that friction is what Coulomb's law allows, from
-    /// the residual; finds that of the new ones. Collective.
+    /// the residual, which is to be found again.
     void choose_friction();
 
     const BackgroundGrid<dim> &grid;
