@@ -34,7 +34,6 @@ namespace scree
       return;
     pressure.reinit(volume_inside);
     pressure.reinit(source);
-    pressure.reinit(potential);
     shifts->reinit();
   }
 
@@ -76,7 +75,7 @@ namespace scree
         }
     if (source.linfty_norm() == 0.)
       return false;
-    pressure.solve_potential(source, potential, balance);
+    pressure.solve_potential(source, balance);
     return true;
   }
 
@@ -90,7 +89,7 @@ namespace scree
     shifts->clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
       shifts->activate_cell(cell.cell);
-    const FlowField<dim> &of_flow = pressure.impulses(potential, time_step);
+    const FlowField<dim> &of_flow = pressure.impulses_of_potential(time_step);
     const double most             = 0.1 * grid.cell_size();
     for (const unsigned int node : shifts->active_nodes())
       {

@@ -16,19 +16,11 @@ namespace scree
 
 
   template <int dim>
-  void BoundedProgram<dim>::reinit(const std::shared_ptr<const Utilities::MPI::Partitioner> &partitioner)
-  {
-    for (Vector *vector : vectors())
-      vector->pressures.reinit(partitioner);
-  }
-
-
-  template <int dim>
-  void BoundedProgram<dim>::begin(std::vector<GroundRow<dim>> *of_ground)
+  void BoundedProgram<dim>::begin(const std::size_t n_pressures, std::vector<GroundRow<dim>> *of_ground)
   {
     rows = of_ground;
     for (Vector *vector : vectors())
-      vector->clear(rows ? rows->size() : 0);
+      vector->clear(n_pressures, rows ? rows->size() : 0);
   }
 
 
@@ -38,7 +30,7 @@ namespace scree
   {
     least    = least_pressures;
     diagonal = of_numbers;
-    is_held.assign(solution.pressures.locally_owned_size(), least.empty());
+    is_held.assign(solution.pressures.size(), least.empty());
     project();
     hold();
   }
@@ -49,7 +41,7 @@ namespace scree
   {
     for (unsigned int i = 0; i < is_held.size(); ++i)
       if (is_held[i])
-        vector.pressures.local_element(i) = 0.;
+        vector.pressures[i] = 0.;
     for (unsigned int k = 0; k < vector.tractions.size(); ++k)
       vector.tractions[k] = (*rows)[k].held_part(vector.tractions[k]);
   }
@@ -59,11 +51,11 @@ namespace scree
   double BoundedProgram<dim>::find_release(Vector &result) const
   {
     double square = 0.;
-    result.clear(source.tractions.size());
+    result.clear(source.pressures.size(), source.tractions.size());
     for (unsigned int i = 0; i < least.size(); ++i)
-      if (const double flow = remaining.pressures.local_element(i); is_held[i] && flow > 0.)
+      if (const double flow = remaining.pressures[i]; is_held[i] && flow > 0.)
         {
-          result.pressures.local_element(i) = flow / diagonal[i];
+          result.pressures[i] = flow / diagonal[i];
           square += flow * flow;
         }
     for (unsigned int k = 0; k < result.tractions.size(); ++k)
@@ -84,7 +76,7 @@ namespace scree
   void BoundedProgram<dim>::release(const Vector &along)
   {
     for (unsigned int i = 0; i < is_held.size(); ++i)
-      is_held[i] = is_held[i] && along.pressures.local_element(i) == 0.;
+      is_held[i] = is_held[i] && along.pressures[i] == 0.;
     for (unsigned int k = 0; k < along.tractions.size(); ++k)
       if (GroundRow<dim> &row = (*rows)[k]; along.tractions[k].norm_square() > 0.)
         row.held = row.holds_along() ? HeldMotion::all : HeldMotion::across;
@@ -94,8 +86,8 @@ namespace scree
   template <int dim>
   double BoundedProgram<dim>::step_of_pressure(const unsigned int i) const
   {
-    const double change = direction.pressures.local_element(i);
-    return i < least.size() && change < 0. ? (least[i] - solution.pressures.local_element(i)) / change : no_limit;
+    const double change = direction.pressures[i];
+    return i < least.size() && change < 0. ? (least[i] - solution.pressures[i]) / change : no_limit;
   }
 
 
@@ -128,9 +120,9 @@ namespace scree
     const double reach       = (1. + rounded) * length;
     for (unsigned int i = 0; i < is_held.size(); ++i)
       if (step_of_pressure(i) <= reach)
-        solution.pressures.local_element(i) = least[i];
+        solution.pressures[i] = least[i];
       else
-        solution.pressures.local_element(i) += length * direction.pressures.local_element(i);
+        solution.pressures[i] += length * direction.pressures[i];
     for (unsigned int k = 0; k < solution.tractions.size(); ++k)
       {
         const bool is_at_bound = step_of_row(k) <= reach;
@@ -153,7 +145,7 @@ namespace scree
   void BoundedProgram<dim>::project()
   {
     for (unsigned int i = 0; i < least.size(); ++i)
-      if (double &value = solution.pressures.local_element(i); value < least[i])
+      if (double &value = solution.pressures[i]; value < least[i])
         value = least[i];
     for (unsigned int k = 0; k < solution.tractions.size(); ++k)
       if ((*rows)[k].is_unilateral && solution.tractions[k] * (*rows)[k].normal < 0.)
@@ -165,7 +157,7 @@ namespace scree
   void BoundedProgram<dim>::hold()
   {
     for (unsigned int i = 0; i < least.size(); ++i)
-      if (solution.pressures.local_element(i) == least[i])
+      if (solution.pressures[i] == least[i])
         is_held[i] = true;
     for (unsigned int k = 0; k < solution.tractions.size(); ++k)
       if (GroundRow<dim> &row = (*rows)[k]; row.is_unilateral && !presses(k))
@@ -196,7 +188,6 @@ namespace scree
   template <int dim>
   typename BoundedProgram<dim>::Iterations BoundedProgram<dim>::iterate(const unsigned int most, const double accepted)
   {
-    find_residual();
     Iterations result{ 0, 0. };
     bool is_conjugate      = false; // the next direction to the last one
     double last_projection = 1.;

@@ -59,17 +59,19 @@ namespace scree
   void GroundRows<dim>::add_forces(const Vectors &tractions, FlowField<dim> &forces) const
   {
     const unsigned int n_nodes = grid.n_nodes_per_cell();
-    for (unsigned int k = 0, first = 0; k < all.size(); ++k, first += n_nodes)
+    for (unsigned int k = 0; k < all.size(); ++k)
       {
+        const Tensor<1, dim> traction = tractions[k];
+        if (traction.norm_square() == 0.)
+          continue; // It has lifted off.
         const unsigned int *nodes = grid.nodes(facets[k]->cell);
-        NodeRow on_flow{}, on_discharge{};
-        for (unsigned int c = 0; c < dim; ++c)
-          on_flow[c] = on_discharge[lane_of_discharge<dim> + c] = tractions[k][c];
-        for (unsigned int i = 0; i < n_nodes; ++i)
+        for (unsigned int i = 0, j = k * n_nodes; i < n_nodes; ++i, ++j)
           {
             double *force = forces[nodes[i]];
-            add_row(-of_flow[first + i] * on_flow, force);
-            add_row(-of_discharge[first + i] * on_discharge, force + start_of_discharge<dim>);
+            for (unsigned int c = 0; c < dim; ++c)
+              force[c] -= of_flow[j] * traction[c];
+            for (unsigned int c = 0; c < dim; ++c)
+              force[dim + c] -= of_discharge[j] * traction[c];
           }
       }
   }
@@ -130,8 +132,8 @@ namespace scree
     motions.assign(motions.size(), NodeRow{});
     const auto relax = [&](const unsigned int k) {
       const GroundRow<dim> &row = all[k];
-      if (row.diagonal == 0.)
-        return; // Nothing of the phase is there.
+      if (row.diagonal == 0. || row.held == HeldMotion::none)
+        return; // Nothing of the phase is there, or it has lifted off.
       NodeRow flow{};
       for (unsigned int j = k * n_nodes; j < (k + 1) * n_nodes; ++j)
         flow += of_flow[j] * motions[corners[j]];

@@ -25,7 +25,7 @@ namespace scree
       , part(grid, vertices, surface, cut_cells, ground_gaps)
       , pair(grid, vertices, part)
       , schur(grid, vertices, surface, part, pair)
-      , solver(grid, vertices, schur, parameters)
+      , solver(grid, vertices, surface, schur, parameters)
   {
     reinit_vectors();
   }
@@ -45,7 +45,7 @@ namespace scree
   template <int dim>
   void PorePressure<dim>::reinit_vectors()
   {
-    for (VertexVector *vector : { &pressure, &change, &source })
+    for (VertexVector *vector : { &pressure, &change, &source, &potential })
       reinit(*vector);
   }
 
@@ -100,14 +100,9 @@ namespace scree
       find_mobilities(mixture, time_step);
       schur.assemble(mixture, pressed_nodes, rows, time_step);
       schur.find_source(nodes, pressure, source);
-      surface.clear(change);
       const double storage = bulk_modulus > 0 ? 1. / (bulk_modulus * time_step) : 0.;
       solver.assemble(
-          mixture,
-          surface,
-          time_step,
-          [&](const unsigned int vertex) { return storage * surface.water_volume(vertex); },
-          rows);
+          mixture, time_step, [&](const unsigned int vertex) { return storage * surface.water_volume(vertex); }, rows);
     }
     const TimedPart timed(timer, TimerSection::pressure_solve);
     const auto result =
@@ -148,7 +143,7 @@ namespace scree
 
 
   template <int dim>
-  void PorePressure<dim>::solve_potential(const VertexVector &source, VertexVector &potential, Budget<dim> &balance)
+  void PorePressure<dim>::solve_potential(const VertexVector &source, Budget<dim> &balance)
   {
     // It moves a part of a surplus only; what this misses is left to the next steps.
     const double tolerance_of_potential = std::min(1e-2, 100. * relative_tolerance);
@@ -165,6 +160,37 @@ namespace scree
       return; // All ranks took part; one tells.
     balance.n_iterations += report.n_iterations;
     balance.n_preconditioners += report.made_preconditioner;
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::save(SolverState<dim> &state) const
+  {
+    const auto numbers_of = [this](const VertexVector &values) {
+      NumbersByPlace own;
+      for (unsigned int vertex = 0; vertex < vertices.n_owned(); ++vertex)
+        if (values.local_element(vertex) != 0.)
+          own.emplace_back(place_of_vertex(grid, vertices, vertex), values.local_element(vertex));
+      return join(grid.communicator(), own);
+    };
+    state.change         = numbers_of(change);
+    state.potential      = numbers_of(potential);
+    state.preconditioner = solver.state();
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::load(const SolverState<dim> &state)
+  {
+    const auto own = vertices_by_place(grid, vertices);
+    const auto set = [&](const NumbersByPlace &numbers, VertexVector &values) {
+      for (const auto &[place, number] : numbers)
+        if (const auto vertex = own.find(place); vertex != own.end())
+          values.local_element(vertex->second) = number;
+    };
+    set(state.change, change);
+    set(state.potential, potential);
+    solver.load(state.preconditioner);
   }
 
   template class PorePressure<2>;

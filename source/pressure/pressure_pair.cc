@@ -157,6 +157,8 @@ namespace scree
         for (unsigned int v = 0; v < FilledPart<dim>::n_vertices; ++v)
           {
             const double p = pressure.local_element(vertices.nodes(cell.cell)[v]);
+            if (p == 0.)
+              continue; // dry, or held in a step of the solver
             slope += p * cell.hat_slopes[v];
             for (unsigned int c = 0; c < dim; ++c)
               {

@@ -13,20 +13,21 @@ namespace scree
   template <int dim>
   PressurePreconditioner<dim>::PressurePreconditioner(const PressureOperator<dim> &system)
       : system(system)
+      , unknowns(system.unknowns())
   {
     const MPI_Comm communicator = system.communicator();
     using Cell                  = typename PressureOperator<dim>::Cell;
     constexpr auto n_vertices   = PressureOperator<dim>::n_vertices;
-    for (unsigned int i = 0; i < system.n_owned(); ++i)
-      if (system.is_unknown(i))
-        unknowns.push_back(i);
     if (Utilities::MPI::sum(unknowns.size(), communicator) == 0)
       return; // all vertices are held for now
     // A rank without a row would be refused: it has one that nothing depends on.
     const bool has_none  = unknowns.empty();
     const IndexSet owned = Utilities::MPI::create_ascending_partitioning(
         communicator, has_none ? 1 : unknowns.size())[Utilities::MPI::this_mpi_process(communicator)];
-    VertexVector rows(system.numbers().partitioner()); // of the matrix, by number; doubles hold them exactly
+    constexpr double no_row = -1.;
+    VertexVector rows; // of the matrix, by vertex; doubles hold them exactly
+    system.reinit(rows);
+    rows = no_row;
     for (unsigned int k = 0; k < unknowns.size(); ++k)
       rows.local_element(unknowns[k]) = owned.nth_index_in_set(k);
     rows.update_ghost_values();
@@ -34,8 +35,8 @@ namespace scree
     // Calls visit(v, row of v) for the unknown vertices of a cell.
     const auto for_unknowns = [&](const Cell &cell, const auto &visit) {
       for (unsigned int v = 0; v < n_vertices; ++v)
-        if (system.is_unknown(cell.numbers[v]))
-          visit(v, types::global_dof_index(rows.local_element(cell.numbers[v])));
+        if (const double row = rows.local_element(system.vertices_of(cell)[v]); row != no_row)
+          visit(v, types::global_dof_index(row));
     };
     TrilinosWrappers::SparsityPattern pattern(owned, communicator, Utilities::pow(3, dim));
     for (const auto row : owned)
@@ -103,17 +104,18 @@ namespace scree
 
 
   template <int dim>
-  void PressurePreconditioner<dim>::vmult(VertexVector &preconditioned, const VertexVector &remainder)
+  void PressurePreconditioner<dim>::vmult(std::vector<double> &preconditioned, const std::vector<double> &remainder)
   {
+    const auto place = [this](const unsigned int k) { return system.place(unknowns[k]); };
     for (unsigned int k = 0; k < unknowns.size(); ++k)
-      source.local_element(k) = system.is_unknown(unknowns[k]) ? remainder.local_element(unknowns[k]) : 0.;
+      source.local_element(k) = place(k) != system.none ? remainder[place(k)] : 0.;
     if (chosen != nullptr)
       chosen->vmult(result, source);
-    for (unsigned int i = 0; i < system.n_owned(); ++i)
-      preconditioned.local_element(i) = system.is_unknown(i) ? remainder.local_element(i) / system.diagonal_of(i) : 0.;
+    for (unsigned int i = 0; i < remainder.size(); ++i)
+      preconditioned[i] = remainder[i] / system.diagonal_of(system.unknowns()[i]);
     for (unsigned int k = 0; k < unknowns.size(); ++k)
-      if (system.is_unknown(unknowns[k]))
-        preconditioned.local_element(unknowns[k]) = result.local_element(k);
+      if (place(k) != system.none)
+        preconditioned[place(k)] = result.local_element(k);
   }
 
   template class PressurePreconditioner<2>;

@@ -25,12 +25,13 @@ namespace scree
   template <int dim>
   PressureSolver<dim>::PressureSolver(const BackgroundGrid<dim> &grid,
                                       const NodeNumbering<dim> &vertices,
+                                      const FreeSurface<dim> &surface,
                                       SchurOperator<dim> &schur,
                                       const PressureParameters &parameters)
       : grid(grid)
       , vertices(vertices)
-      , numbering(grid, vertices)
-      , system(grid, vertices, numbering)
+      , surface(surface)
+      , system(grid, vertices)
       , maximum_iterations(parameters.maximum_iterations)
       , schur(schur)
       , program(
@@ -45,38 +46,29 @@ namespace scree
   template <int dim>
   void PressureSolver<dim>::reinit()
   {
-    numbering.reinit();
+    system.reinit();
     preconditioner.reset();
     of_schur.reinit(vertices.partitioner());
     times_schur.reinit(vertices.partitioner());
-    is_worn = true;
+    own_state = PreconditionerState();
   }
 
 
   template <int dim>
   void PressureSolver<dim>::assemble(const Mixture<dim> &mixture,
-                                     const FreeSurface<dim> &surface,
                                      const double time_step,
                                      const std::function<double(unsigned int vertex)> &storage,
                                      GroundRows<dim> *of_ground)
   {
-    if (numbering.update(mixture))
-      {
-        system.reinit();
-        program.reinit(numbering.partitioner());
-        flow_of_pressure.pressures.reinit(numbering.partitioner());
-        is_worn = true;
-      }
     system.assemble(mixture, surface, time_step, storage);
-    storage_of_number.assign(system.n_owned(), 0.);
-    diagonal_of_number.assign(system.n_owned(), 0.);
+    storage_of_unknown.clear();
+    diagonal.clear();
     schur.find_diagonal(times_schur);
-    for (unsigned int i = 0; i < storage_of_number.size(); ++i)
-      if (system.is_unknown(i))
-        {
-          storage_of_number[i]  = storage(numbering.vertex(i));
-          diagonal_of_number[i] = times_schur.local_element(numbering.vertex(i)) + storage_of_number[i];
-        }
+    for (const unsigned int vertex : system.unknowns())
+      {
+        storage_of_unknown.push_back(storage(vertex));
+        diagonal.push_back(times_schur.local_element(vertex) + storage(vertex));
+      }
     if (of_ground)
       of_ground->set_mobilities(schur.mobilities());
   }
@@ -85,14 +77,13 @@ namespace scree
   template <int dim>
   void PressureSolver<dim>::vmult(Vector &target, const Vector &source)
   {
-    for (unsigned int i = 0; i < system.n_owned(); ++i)
-      of_schur.local_element(numbering.vertex(i)) = system.is_unknown(i) ? source.pressures.local_element(i) : 0.;
+    const std::vector<unsigned int> &unknowns = system.unknowns();
+    for (unsigned int i = 0; i < unknowns.size(); ++i)
+      of_schur.local_element(unknowns[i]) = source.pressures[i];
     schur.vmult(times_schur, target.tractions, of_schur, source.tractions);
-    for (unsigned int i = 0; i < system.n_owned(); ++i)
-      target.pressures.local_element(i) = system.is_unknown(i)
-                                              ? times_schur.local_element(numbering.vertex(i)) +
-                                                    storage_of_number[i] * source.pressures.local_element(i)
-                                              : 0.;
+    target.pressures.resize(unknowns.size());
+    for (unsigned int i = 0; i < unknowns.size(); ++i)
+      target.pressures[i] = times_schur.local_element(unknowns[i]) + storage_of_unknown[i] * source.pressures[i];
     constexpr double regularisation = 1e-7; // the rows of small facets nearly depend on those beside them
     for (unsigned int k = 0; k < target.tractions.size(); ++k)
       {
@@ -105,12 +96,11 @@ namespace scree
 
 
   template <int dim>
-  void PressureSolver<dim>::take(const VertexVector &from, VertexVector &to) const
+  void PressureSolver<dim>::take(const VertexVector &from, std::vector<double> &to) const
   {
-    to = 0.;
-    for (unsigned int i = 0; i < system.n_owned(); ++i)
-      if (system.is_unknown(i))
-        to.local_element(i) = from.local_element(numbering.vertex(i));
+    to.clear();
+    for (const unsigned int vertex : system.unknowns())
+      to.push_back(from.local_element(vertex));
   }
 
 
@@ -118,10 +108,9 @@ namespace scree
   void PressureSolver<dim>::precondition(Vector &target, const Vector &source)
   {
     preconditioner->vmult(target.pressures, source.pressures);
-    for (unsigned int i = 0; i < system.n_owned(); ++i)
-      if (diagonal_of_number[i] > 0.) // else no part of a cell reaches the vertex
-        target.pressures.local_element(i) +=
-            part_of_diagonal / diagonal_of_number[i] * source.pressures.local_element(i);
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      if (diagonal[i] > 0.) // else no part of a cell reaches the vertex
+        target.pressures[i] += part_of_diagonal / diagonal[i] * source.pressures[i];
     if (ground)
       ground->precondition(source.tractions, target.tractions);
   }
@@ -137,12 +126,14 @@ namespace scree
       return last.residual <= accepted;
     };
     // A front that enters new cells can make the kept preconditioner useless within a step.
-    const unsigned int patience = std::min(maximum_iterations, iterations_when_new + iterations_worth_a_preconditioner);
+    const unsigned int patience =
+        std::min(maximum_iterations, own_state.iterations_when_new + iterations_worth_a_preconditioner);
     if (accepted > 0. && // else nothing flows
-        (is_worn || !has_converged(patience)))
+        (own_state.is_worn || !has_converged(patience)))
       {
         preconditioner.reset(); // before the next one takes memory
-        preconditioner             = std::make_unique<PressurePreconditioner<dim>>(system);
+        preconditioner = std::make_unique<PressurePreconditioner<dim>>(system);
+        system.save(own_state);
         report.made_preconditioner = true;
         const bool is_done         = has_converged(maximum_iterations);
         AssertThrow(
@@ -151,9 +142,9 @@ namespace scree
                        " iterations the residual is " + std::to_string(last.residual / accepted) +
                        " times the accepted one. Remedies: a smaller 'Courant number' in subsection Time step, "
                        "more 'Maximum iterations' or a larger 'Relative tolerance' in subsection Water/Pressure."));
-        is_worn             = false;
-        iterations_when_new = last.n;
-        surplus_iterations  = 0;
+        own_state.is_worn             = false;
+        own_state.iterations_when_new = last.n;
+        own_state.surplus_iterations  = 0;
       }
   }
 
@@ -187,7 +178,6 @@ namespace scree
     // slip.
     constexpr double part_of_response    = 0.3;
     constexpr double most_over_available = 1e6; // Less friction than that is none.
-    program.find_residual();
     for (unsigned int k = 0; k < ground->all.size(); ++k)
       {
         GroundRow<dim> &row      = ground->all[k];
@@ -242,39 +232,63 @@ namespace scree
 
 
   template <int dim>
+  void PressureSolver<dim>::start_pressures(const Task &task, const VertexVector &change)
+  {
+    std::vector<double> least_change;
+    for (const unsigned int vertex : system.unknowns())
+      if (task.has_pressure)
+        least_change.push_back(task.least_pressure - task.pressure.local_element(vertex));
+    const auto start = [&] {
+      program.set_bounds(least_change, diagonal);
+      program.find_residual();
+    };
+    std::vector<double> &guess = program.solution.pressures;
+    guess.assign(diagonal.size(), 0.);
+    if (ground) // Friction must not depend on whether there is a guess.
+      {
+        start();
+        choose_friction();
+      }
+    if (task.has_pressure)
+      take(change, guess);
+    start();
+    // The bound on the energy holds from a first guess that makes none.
+    if (task.has_pressure && Utilities::MPI::sum(program.energy(), grid.communicator()) > 0.)
+      {
+        guess.assign(diagonal.size(), 0.);
+        start();
+      }
+  }
+
+
+  template <int dim>
   typename PressureSolver<dim>::Result
   PressureSolver<dim>::solve(const Task &task, VertexVector &change, GroundRows<dim> *of_ground)
   {
     constexpr double alone = 0.1; // of the tolerance: rows beside a held pressure decide on creep
     ground                 = of_ground;
-    program.begin(ground ? &ground->all : nullptr);
+    program.begin(diagonal.size(), ground ? &ground->all : nullptr);
     take(task.pressure, program.solution.pressures);
     vmult(flow_of_pressure, program.solution);
     take(task.flow, program.source.pressures);
-    take(change, program.solution.pressures);
     const bool rubs = start_rows();
     const double tolerance =
         find_tolerance(task.has_pressure ? task.relative_tolerance : alone * task.relative_tolerance);
-    std::vector<double> least_change; // of the pressure
-    for (unsigned int i = 0; task.has_pressure && i < system.n_owned(); ++i)
-      least_change.push_back(system.is_unknown(i)
-                                 ? task.least_pressure - task.pressure.local_element(numbering.vertex(i))
-                                 : -std::numeric_limits<double>::infinity());
-    program.set_bounds(least_change, diagonal_of_number);
+    start_pressures(task, change);
     Result result;
     if (rubs) // twice, with friction by what was found before
       {
         constexpr double coarser = 3.;
-        choose_friction();
         converge(coarser * tolerance, result.first);
         choose_friction();
+        program.find_residual();
       }
     converge(tolerance, rubs ? result.further : result.first);
     if (task.has_pressure)
       result.n_cavitating = program.n_held();
-    for (unsigned int i = 0; i < system.n_owned(); ++i)
-      change.local_element(numbering.vertex(i)) =
-          system.is_unknown(i) ? program.solution.pressures.local_element(i) : 0.;
+    surface.clear(change);
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      change.local_element(system.unknowns()[i]) = program.solution.pressures[i];
     for (unsigned int k = 0; ground && k < ground->all.size(); ++k)
       ground->all[k].traction = program.solution.tractions[k];
     return result;
@@ -284,10 +298,32 @@ namespace scree
   template <int dim>
   void PressureSolver<dim>::update_preconditioner_age(const SolveReport &report)
   {
-    if (report.made_preconditioner || is_worn) // worn still: nothing flowed, so that none was made
+    if (report.made_preconditioner || own_state.is_worn) // worn still: nothing flowed, so that none was made
       return;
-    surplus_iterations += std::max(int(report.n_iterations) - int(iterations_when_new), 0);
-    is_worn = surplus_iterations > iterations_worth_a_preconditioner;
+    own_state.surplus_iterations += std::max(int(report.n_iterations) - int(own_state.iterations_when_new), 0);
+    own_state.is_worn = own_state.surplus_iterations > iterations_worth_a_preconditioner;
+  }
+
+
+  template <int dim>
+  PreconditionerState PressureSolver<dim>::state() const
+  {
+    PreconditionerState all = own_state;
+    all.mobilities          = join(grid.communicator(), own_state.mobilities);
+    all.diagonal            = join(grid.communicator(), own_state.diagonal);
+    return all;
+  }
+
+
+  template <int dim>
+  void PressureSolver<dim>::load(const PreconditionerState &state)
+  {
+    own_state = state;
+    if (state.is_worn)
+      return;
+    system.load(state);
+    system.save(own_state); // of this rank alone
+    preconditioner = std::make_unique<PressurePreconditioner<dim>>(system);
   }
 
   template class PressureSolver<2>;

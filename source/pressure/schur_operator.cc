@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace scree
 {
@@ -45,6 +46,12 @@ namespace scree
     nodes                              = &pressed_nodes;
     rows                               = of_ground;
     time_step                          = of_step;
+    for (unsigned int k = 0; rows && k < rows->all.size(); ++k)
+      flow.activate_cell(rows->cell(k));
+    reached.clear();
+    std::copy_if(nodes->all.begin(), nodes->all.end(), std::back_inserter(reached), [&](const PressedNode<dim> &node) {
+      return flow.is_active_at(node.node);
+    });
     stiffness.clear();
     const double scale = part_of_laplacian * time_step * std::pow(grid.cell_size(), dim - 2);
     for (const auto &cell : part.cells())
@@ -53,10 +60,10 @@ namespace scree
 
 
   template <int dim>
-  void SchurOperator<dim>::begin_step(const Mixture<dim> &mixture)
+  void SchurOperator<dim>::begin_step()
   {
     flow.clear();
-    for (const MixtureCell<dim> &cell : mixture.cells())
+    for (const auto &cell : part.cells())
       flow.activate_cell(cell.cell);
   }
 
@@ -144,7 +151,7 @@ namespace scree
     if (!tractions.empty())
       rows->add_forces(tractions, flow);
     flow.add_contributions();
-    for (const PressedNode<dim> &node : nodes->all)
+    for (const PressedNode<dim> &node : reached)
       {
         SoilAndWater<dim> impulses = PressedNodes<dim>::forces(node, flow[node.node]);
         impulses.soil *= -time_step;
@@ -169,7 +176,7 @@ namespace scree
   {
     constexpr unsigned int n_vertices = FilledPart<dim>::n_vertices;
     clear_flow();
-    for (const PressedNode<dim> &node : nodes->all)
+    for (const PressedNode<dim> &node : reached)
       {
         std::array<double, dim> mobilities;
         for (unsigned int c = 0; c < dim; ++c)
@@ -197,7 +204,7 @@ namespace scree
   const FlowField<dim> &SchurOperator<dim>::mobilities()
   {
     clear_flow();
-    for (const PressedNode<dim> &node : nodes->all)
+    for (const PressedNode<dim> &node : reached)
       {
         flow[node.node][unsigned(Phase::soil)]  = time_step * node.mobility.soil;
         flow[node.node][unsigned(Phase::water)] = time_step * node.mobility.water;
@@ -213,7 +220,7 @@ namespace scree
                                        VertexVector &target)
   {
     clear_flow();
-    for (const PressedNode<dim> &node : nodes->all)
+    for (const PressedNode<dim> &node : reached)
       PressedNodes<dim>::set_flow(node,
                                   { vector_of<dim>(of_mixture.soil[node.node] + NodalField<dim>::velocity),
                                     vector_of<dim>(of_mixture.water[node.node] + NodalField<dim>::velocity) },

@@ -70,7 +70,7 @@ namespace scree
     if (!folder.is_writer())
       totals = RunBalance<dim>(scene.obstacles.size()); // The writer holds the sums.
     reinit();
-    scheme->set_ground_tractions(ground_tractions);
+    scheme->set_solver_state(solver_state);
     points_at_edge = are_points_at_edge() || points_at_edge;
     output_times.begin(clock.time());
     record_case(parameters, folder);
@@ -227,7 +227,7 @@ namespace scree
   {
     const RunBalance<dim> own = totals;
     totals                    = totals.sum_over_ranks(communicator);
-    ground_tractions          = scheme->ground_tractions();
+    solver_state              = scheme->solver_state();
     results.sync();
     FileJob job = checkpoint_files(parameters.output_directory,
                                    clock.time(),

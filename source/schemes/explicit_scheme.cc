@@ -120,28 +120,29 @@ namespace scree
 
 
   template <int dim>
-  std::vector<FacetTractions<dim>> ExplicitScheme<dim>::ground_tractions() const
+  SolverState<dim> ExplicitScheme<dim>::solver_state() const
   {
-    std::vector<FacetTractions<dim>> all;
+    SolverState<dim> state;
     for (const Group &group : groups)
       for (FacetTractions<dim> one : group.contact.tractions())
         {
           one.group = group.number;
-          all.push_back(one);
+          state.tractions.push_back(one);
         }
-    return all;
+    return state;
   }
 
 
   template <int dim>
-  void ExplicitScheme<dim>::set_ground_tractions(const std::vector<FacetTractions<dim>> &tractions)
+  void ExplicitScheme<dim>::set_solver_state(const SolverState<dim> &state)
   {
     for (Group &group : groups)
       {
         std::vector<FacetTractions<dim>> of_group;
-        std::copy_if(tractions.begin(), tractions.end(), std::back_inserter(of_group), [&](const auto &one) {
-          return one.group == group.number;
-        });
+        std::copy_if(state.tractions.begin(),
+                     state.tractions.end(),
+                     std::back_inserter(of_group),
+                     [&](const auto &one) { return one.group == group.number; });
         group.contact.set_tractions(of_group);
       }
   }

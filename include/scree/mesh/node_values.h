@@ -135,6 +135,12 @@ namespace scree
       return active_owned;
     }
 
+    /// Whether a node of this rank's cells, ghosts included, is active.
+    bool is_active_at(const unsigned int node) const
+    {
+      return is_active[node];
+    }
+
     /// The `n` numbers of a node of this rank's cells, ghosts included.
     double *operator[](const unsigned int node)
     {

@@ -57,7 +57,7 @@ namespace scree
     PorePressure<dim> &pressure;
     const dealii::Tensor<1, dim> gravity;
     const double rate; // 1/s
-    VertexVector volume_inside, source, potential;
+    VertexVector volume_inside, source;
     std::optional<NodeValues<dim, dim>> shifts; // of water, m
   };
 } // namespace scree

@@ -7,29 +7,29 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <memory>
 #include <vector>
 
 namespace scree
 {
-  /// Pressures by number, Pa, and tractions by row of the ground, Pa; or flows, m^dim/s.
+  /// Pressures by owned unknown, Pa, and tractions by row of the ground, Pa; or flows, m^dim/s.
   template <int dim>
   struct PressuresAndTractions
   {
-    VertexVector pressures;                      ///< by number
+    std::vector<double> pressures;               ///< by owned unknown
     typename GroundRows<dim>::Vectors tractions; ///< by row
 
     /// All is 0.
-    void clear(const std::size_t n_rows)
+    void clear(const std::size_t n_pressures, const std::size_t n_rows)
     {
-      pressures = 0.;
+      pressures.assign(n_pressures, 0.);
       tractions.assign(n_rows, dealii::Tensor<1, dim>());
     }
 
     /// *this = factor * *this + other_factor * other.
     void sadd(const double factor, const double other_factor, const PressuresAndTractions &other)
     {
-      pressures.sadd(factor, other_factor, other.pressures);
+      for (unsigned int i = 0; i < pressures.size(); ++i)
+        pressures[i] = factor * pressures[i] + other_factor * other.pressures[i];
       for (unsigned int k = 0; k < tractions.size(); ++k)
         tractions[k] = factor * tractions[k] + other_factor * other.tractions[k];
     }
@@ -38,8 +38,8 @@ namespace scree
     double operator*(const PressuresAndTractions &other) const
     {
       double sum = 0.;
-      for (unsigned int i = 0; i < pressures.locally_owned_size(); ++i)
-        sum += pressures.local_element(i) * other.pressures.local_element(i);
+      for (unsigned int i = 0; i < pressures.size(); ++i)
+        sum += pressures[i] * other.pressures[i];
       for (unsigned int k = 0; k < tractions.size(); ++k)
         sum += tractions[k] * other.tractions[k];
       return sum;
@@ -62,7 +62,7 @@ namespace scree
     /// Sets `target` to an operator times `source`. Collective.
     using Operator = std::function<void(Vector &target, const Vector &source)>;
 
-    /// @param matrix S, at all numbers and rows, also those that are held; 0 at numbers without an unknown
+    /// @param matrix S, at all unknowns and rows, also those that are held
     /// @param preconditioner an approximate inverse; what it gives to what is held is dropped
     BoundedProgram(const MPI_Comm communicator, const Operator &matrix, const Operator &preconditioner)
         : communicator(communicator)
@@ -71,16 +71,14 @@ namespace scree
     {
     }
 
-    /// Fits the vectors to a partition of the numbers.
-    void reinit(const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &partitioner);
-
     /// Sets source and solution to 0.
+    /// @param n_pressures owned unknowns of this rank
     /// @param of_ground its rows, whose HeldMotion the program changes; null: none on any rank
-    void begin(std::vector<GroundRow<dim>> *of_ground);
+    void begin(const std::size_t n_pressures, std::vector<GroundRow<dim>> *of_ground);
 
     /// Holds what of the solution is at its bounds or beyond, and puts it there.
-    /// @param least_pressures by owned number, Pa; empty: all pressures stay as they are
-    /// @param diagonal of S, by owned number, m^dim/(Pa s)
+    /// @param least_pressures by owned unknown, Pa; empty: all pressures stay as they are
+    /// @param diagonal of S, by owned unknown, m^dim/(Pa s)
     void set_bounds(const std::vector<double> &least_pressures, const std::vector<double> &diagonal);
 
     /// What iterate() came to.
@@ -90,14 +88,14 @@ namespace scree
       double residual; ///< its norm, with the weight of the rows, m^dim/s
     };
 
-    /// At most this many steps on the solution, until the norm of what is left is not above the accepted one.
-    /// Collective.
+    /// At most this many steps on the solution, until the norm of what is left is not above the accepted one; the
+    /// residual must be known. Collective.
     Iterations iterate(const unsigned int most, const double accepted);
 
     /// Finds what is left of the source. Collective.
     void find_residual();
 
-    /// What was left of the source by the last iteration, or by find_residual().
+    /// What the last iteration left of the source, or find_residual() found.
     const Vector &residual() const
     {
       return remaining;
@@ -110,6 +108,12 @@ namespace scree
       return solution.tractions[k] * (*rows)[k].normal > rounded * solution.tractions[k].norm();
     }
 
+    /// This rank's part of x S x/2 - x b of the solution, with its residual.
+    double energy() const
+    {
+      return -0.5 * (solution * source + solution * remaining);
+    }
+
     /// Number of owned pressures at their bounds.
     unsigned int n_held() const
     {
@@ -120,7 +124,7 @@ namespace scree
 
     Vector source;              ///< b, m^dim/s
     Vector solution;            ///< x, Pa
-    double weight_of_rows = 1.; ///< of the squares of flows at rows against those at numbers, in norms
+    double weight_of_rows = 1.; ///< of the squares of flows at rows against those of pressures, in norms
 
   private:
     /// All of them, of the same shape.
@@ -139,7 +143,7 @@ namespace scree
     /// Frees what moves along a direction of find_release().
     void release(const Vector &along);
 
-    /// How far the solution can go along the direction until an owned number, or a row, is at its bound.
+    /// How far the solution can go along the direction until an owned unknown, or a row, is at its bound.
     double step_of_pressure(const unsigned int i) const;
     double step_of_row(const unsigned int k) const;
 
@@ -158,20 +162,14 @@ namespace scree
     /// Holds what of the solution is at its bounds.
     void hold();
 
-    /// This rank's part of x S x/2 - x b of the solution, with its residual.
-    double energy() const
-    {
-      return -0.5 * (solution * source + solution * remaining);
-    }
-
     /// Sum of squares on this rank, with the weight of the rows.
     double local_square(const Vector &vector) const;
 
     const MPI_Comm communicator;
     const Operator matrix, preconditioner;
     std::vector<GroundRow<dim>> *rows = nullptr; // null: none
-    std::vector<char> is_held;                   // by owned number: at its bound
-    std::vector<double> least, diagonal;         // by owned number, see set_bounds()
+    std::vector<char> is_held;                   // by owned unknown: at its bound
+    std::vector<double> least, diagonal;         // by owned unknown, see set_bounds()
     // What is left of the source, its free part, that preconditioned; the direction of a step, that times S.
     Vector remaining, free_remaining, preconditioned, direction, product, scratch;
   };

@@ -154,10 +154,16 @@ namespace scree
       return sum;
     }
 
-    /// The nodes of a row's cell.
+    /// The cell of a row.
+    unsigned int cell(const unsigned int row) const
+    {
+      return facets[row]->cell;
+    }
+
+    /// The nodes of that.
     const unsigned int *nodes(const unsigned int row) const
     {
-      return grid.nodes(facets[row]->cell);
+      return grid.nodes(cell(row));
     }
 
     std::vector<GroundRow<dim>> all; ///< with the tractions of the last solve

@@ -64,7 +64,7 @@ namespace scree
                    const double time_step)
     {
       part.find(mixture, holds, time_step);
-      schur.begin_step(mixture);
+      schur.begin_step();
       pair.find_moments(volume);
     }
 
@@ -89,8 +89,8 @@ namespace scree
     /// The same of suction and of the pressure at drained walls, which do work. Collective.
     const FlowField<dim> &prescribed_impulses(const double time_step);
 
-    /// The same of a potential as of a pressure.
-    const FlowField<dim> &impulses(const VertexVector &potential, const double time_step)
+    /// The same of the potential as of a pressure.
+    const FlowField<dim> &impulses_of_potential(const double time_step)
     {
       return schur.impulses(potential, time_step);
     }
@@ -108,8 +108,13 @@ namespace scree
     void accept_change();
 
     /// Finds the potential whose flux, with the matrix of the last solve(), is `source`, m^3/s. Collective.
-    /// @param potential what it holds is the first guess; its ghosts hold values afterwards
-    void solve_potential(const VertexVector &source, VertexVector &potential, Budget<dim> &balance);
+    void solve_potential(const VertexVector &source, Budget<dim> &balance);
+
+    /// Writes what the next step's solves begin with into a state, of all ranks. Collective.
+    void save(SolverState<dim> &state) const;
+
+    /// Sets what of it this rank has, after reinit(). Collective.
+    void load(const SolverState<dim> &state);
 
     /// Pressure at the vertices of a cell with points, Pa, in deal.II's order.
     AtVertices pressure_of(const unsigned int cell) const
@@ -161,7 +166,7 @@ namespace scree
     PressurePair<dim> pair;
     SchurOperator<dim> schur;
     PressureSolver<dim> solver;
-    VertexVector pressure, change, source;
+    VertexVector pressure, change, source, potential;
     typename GroundRows<dim>::Vectors tractions; // of the last solve, Pa
   };
 } // namespace scree

@@ -2,7 +2,8 @@
 #ifndef scree_pressure_pressure_operator_h
 #define scree_pressure_pressure_operator_h
 
-#include <scree/pressure/pressure_numbering.h>
+#include <scree/pressure/free_surface.h>
+#include <scree/pressure/solver_state.h>
 
 #include <functional>
 #include <vector>
@@ -12,7 +13,7 @@ namespace scree
   /// The matrix L that preconditions the pressure's system: cells that hold water, and which vertices are unknown.
   ///
   /// L = dt sum kappa K with the Laplacian K of one cell and the mobility kappa of the mixture's cells; vertices beside
-  /// the surface enter through the unknown ones. Vectors are by local number of a PressureNumbering.
+  /// the surface enter through the unknown ones.
   template <int dim>
   class PressureOperator
   {
@@ -23,16 +24,14 @@ namespace scree
     /// A cell that holds water.
     struct Cell
     {
-      std::array<unsigned int, n_vertices> numbers; ///< local numbers of its vertices
-      double mobility;                              ///< dt kappa h^(dim-2), m^3/(Pa s)
+      unsigned int cell; ///< active cell index
+      double mobility;   ///< dt kappa h^(dim-2), m^3/(Pa s)
     };
 
-    /// Keeps references to all of them.
-    PressureOperator(const BackgroundGrid<dim> &grid,
-                     const NodeNumbering<dim> &vertices,
-                     const PressureNumbering<dim> &numbering);
+    /// Keeps references to both.
+    PressureOperator(const BackgroundGrid<dim> &grid, const NodeNumbering<dim> &vertices);
 
-    /// Fits the vectors to new numbers.
+    /// Fits it to the current vertices.
     void reinit();
 
     /// Sets the matrix, as PressureSolver::assemble(). Collective.
@@ -41,34 +40,48 @@ namespace scree
                   const double time_step,
                   const std::function<double(unsigned int vertex)> &storage);
 
-    /// Whether the pressure of a local number is a degree of freedom.
-    bool is_unknown(const unsigned int number) const
+    /// Writes cells and diagonal of this rank into the state of a preconditioner that is made from them.
+    void save(PreconditionerState &state) const;
+
+    /// Sets what of them this rank has: the matrix for that preconditioner.
+    void load(const PreconditionerState &state);
+
+    /// The owned vertices whose pressure is a degree of freedom.
+    const std::vector<unsigned int> &unknowns() const
     {
-      return unknown[number];
+      return unknown_vertices;
     }
 
-    /// How many numbers this rank owns.
-    unsigned int n_owned() const
+    static constexpr unsigned int none = dealii::numbers::invalid_unsigned_int; ///< see place()
+
+    /// Place of an owned vertex among the unknowns, or `none`.
+    unsigned int place(const unsigned int vertex) const
     {
-      return diagonal.size();
+      return places[vertex];
     }
 
-    /// The diagonal of L at an owned unknown number, m^3/(Pa s).
-    double diagonal_of(const unsigned int number) const
+    /// The diagonal of L at an unknown, m^3/(Pa s).
+    double diagonal_of(const unsigned int vertex) const
     {
-      return whole_diagonal.local_element(number);
+      return diagonals[vertex][whole];
     }
 
     /// What surface vertices and storage add to it.
-    double added_to_diagonal(const unsigned int number) const
+    double added_to_diagonal(const unsigned int vertex) const
     {
-      return diagonal[number];
+      return diagonals[vertex][added];
     }
 
     /// Cells of this rank that hold water.
     const std::vector<Cell> &cells() const
     {
       return wet_cells;
+    }
+
+    /// The vertices of a cell, in deal.II's order.
+    const unsigned int *vertices_of(const Cell &cell) const
+    {
+      return vertices.nodes(cell.cell);
     }
 
     /// What a cell adds to L, by its vertices.
@@ -81,10 +94,10 @@ namespace scree
       return own;
     }
 
-    /// Numbering of the vectors.
-    const PressureNumbering<dim> &numbers() const
+    /// Makes room for a number a vertex.
+    void reinit(VertexVector &vector) const
     {
-      return numbering;
+      vector.reinit(vertices.partitioner());
     }
 
     /// Communicator of the mesh.
@@ -94,16 +107,20 @@ namespace scree
     }
 
   private:
+    /// Of the diagonal of L, m^3/(Pa s).
+    enum Diagonal : unsigned int
+    {
+      whole,
+      added // by surface vertices and storage
+    };
+
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &vertices;
-    const PressureNumbering<dim> &numbering;
     CellMatrix laplacian; // of the unit cell
 
     std::vector<Cell> wet_cells;
-    std::vector<char> unknown;    // by number
-    std::vector<double> diagonal; // what surface vertices and storage add, by owned number
-    VertexVector beside_surface;  // what the surface vertices do
-    VertexVector whole_diagonal;  // of the owned unknown numbers, m^3/(Pa s)
+    std::vector<unsigned int> unknown_vertices, places; // see unknowns(); by owned vertex
+    NodeValues<dim, 2> diagonals;                       // Diagonal
   };
 } // namespace scree
 

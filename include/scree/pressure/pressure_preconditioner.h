@@ -20,9 +20,9 @@ namespace scree
     /// Stores the matrix and factorises it. Collective.
     explicit PressurePreconditioner(const PressureOperator<dim> &system);
 
-    /// Sets `preconditioned` to what the preconditioner makes of `remainder`: vertices that have become unknown since
-    /// it was made get that over their own diagonal, the others that are not unknown 0. Collective.
-    void vmult(VertexVector &preconditioned, const VertexVector &remainder);
+    /// Sets `preconditioned` to what the preconditioner makes of `remainder`, both by owned unknown: vertices that have
+    /// become unknown since it was made get that over their own diagonal. Collective.
+    void vmult(std::vector<double> &preconditioned, const std::vector<double> &remainder);
 
   private:
     void choose();
@@ -34,7 +34,7 @@ namespace scree
     dealii::TrilinosWrappers::PreconditionBlockwiseDirect blocks;
     dealii::TrilinosWrappers::PreconditionBase *chosen = nullptr; // null: there was no unknown
 
-    std::vector<unsigned int> unknowns; // owned numbers of the rows
+    std::vector<unsigned int> unknowns; // owned vertices of the rows
     VertexVector source, result;        // by row
   };
 } // namespace scree

@@ -28,15 +28,15 @@ namespace scree
   ///
   /// The matrix (SchurOperator) is applied cell by cell and never stored. The preconditioner of the conjugate gradients
   /// is the algebraic multigrid of L (PressureOperator), which is kept over steps and made anew when it gets worse, and
-  /// a part of the inverse diagonal of S; at rows of the ground a symmetric sweep over them. The numbering of the
-  /// unknowns, too, serves many steps.
+  /// a part of the inverse diagonal of S; at rows of the ground a symmetric sweep over them.
   template <int dim>
   class PressureSolver
   {
   public:
-    /// Keeps references to grid, vertices and matrix.
+    /// Keeps references to grid, vertices, surface and matrix.
     PressureSolver(const BackgroundGrid<dim> &grid,
                    const NodeNumbering<dim> &vertices,
+                   const FreeSurface<dim> &surface,
                    SchurOperator<dim> &schur,
                    const PressureParameters &parameters);
     ~PressureSolver();
@@ -48,7 +48,6 @@ namespace scree
     /// @param storage what the diagonal of a vertex gains: of compressible water, m^3/(Pa s)
     /// @param of_ground its rows; null: none on any rank
     void assemble(const Mixture<dim> &mixture,
-                  const FreeSurface<dim> &surface,
                   const double time_step,
                   const std::function<double(unsigned int vertex)> &storage,
                   GroundRows<dim> *of_ground);
@@ -71,9 +70,9 @@ namespace scree
       unsigned int n_cavitating = 0; ///< owned vertices that are held at the least pressure
     };
 
-    /// Finds the change of the pressure, Pa, at the unknown vertices (0 at the others), from what `change` holds, and
-    /// the tractions of the ground's rows, so that flow is left nowhere where it is held: the least of the kinetic
-    /// energy of what is pushed, under the constraints.
+    /// Finds the change of the pressure, Pa, at the unknown vertices (0 at the other wet ones), and the tractions of
+    /// the ground's rows, so that flow is left nowhere where it is held: the least of the kinetic energy of what is
+    /// pushed, under the constraints. What `change` holds is the first guess, unless it makes energy: then this is 0.
     ///
     /// Where the pressure would fall below the least, it is prescribed, and the mixture opens; a row whose traction
     /// would pull lifts off (BoundedProgram). A row that would be held by more than Coulomb's friction slides under
@@ -86,17 +85,23 @@ namespace scree
     /// Has the preconditioner made anew by the next solve if it has become worse: to be told of the solves of one kind.
     void update_preconditioner_age(const SolveReport &report);
 
+    /// The preconditioner's state on all ranks. Collective.
+    PreconditionerState state() const;
+
+    /// Makes the preconditioner of a state, after reinit(). Collective.
+    void load(const PreconditionerState &state);
+
   private:
     using Vector = PressuresAndTractions<dim>;
 
-    /// Sets `target` to the matrix times `source`, at the unknown numbers and at all rows. Collective.
+    /// Sets `target` to the matrix times `source`, at the unknowns and at all rows. Collective.
     void vmult(Vector &target, const Vector &source);
 
     /// Sets `target` to the preconditioner times `source`. Collective.
     void precondition(Vector &target, const Vector &source);
 
-    /// Sets `to` to the values of the owned unknown vertices, and to 0 elsewhere.
-    void take(const VertexVector &from, VertexVector &to) const;
+    /// Sets `to` to the values of the owned unknown vertices.
+    void take(const VertexVector &from, std::vector<double> &to) const;
 
     /// Solves the program from its solution until the residual, m^dim/s, is accepted; adds to the report.
     void converge(const double accepted, SolveReport &report);
@@ -109,19 +114,22 @@ namespace scree
     /// @return whether there are some with friction on any rank
     bool start_rows();
 
-    /// Chooses the compliances of the rows along the ground anew, so that friction is what Coulomb's law allows.
-    /// Collective.
+    /// Chooses friction, puts the first guess of the change of p into the program and finds the residual. Collective.
+    void start_pressures(const Task &task, const VertexVector &change);
+
+    /// Chooses the compliances of the rows along the ground anew, so that friction is what Coulomb's law allows, from
+    /// the residual, which is to be found again.
     void choose_friction();
 
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &vertices;
-    PressureNumbering<dim> numbering;
+    const FreeSurface<dim> &surface;
     PressureOperator<dim> system;
     const unsigned int maximum_iterations;
     SchurOperator<dim> &schur;
     VertexVector of_schur, times_schur;     // by vertex
-    std::vector<double> storage_of_number;  // on the diagonal, of owned numbers
-    std::vector<double> diagonal_of_number; // of S with the storage, m^3/(Pa s)
+    std::vector<double> storage_of_unknown; // on the diagonal
+    std::vector<double> diagonal;           // of S with the storage, by unknown, m^3/(Pa s)
 
     GroundRows<dim> *ground = nullptr; // of a solve; null: none
     BoundedProgram<dim> program;
@@ -129,8 +137,7 @@ namespace scree
 
     std::unique_ptr<PressurePreconditioner<dim>> preconditioner;
     static constexpr unsigned int iterations_worth_a_preconditioner = 200; // what making it costs, measured
-    unsigned int iterations_when_new = 0, surplus_iterations = 0;
-    bool is_worn = true;
+    PreconditionerState own_state;                                         // of this rank
   };
 } // namespace scree
 

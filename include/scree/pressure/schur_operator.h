@@ -108,8 +108,8 @@ namespace scree
     /// Fits it to the grid's current partition.
     void reinit();
 
-    /// Makes room for the flow of a mixture's cells, before a new step.
-    void begin_step(const Mixture<dim> &mixture);
+    /// Makes room for the flow of the cells that have a part, before a new step.
+    void begin_step();
 
     using RowVectors = typename GroundRows<dim>::Vectors; ///< a vector a row of the ground
 
@@ -158,7 +158,8 @@ namespace scree
     const PressurePair<dim> &pair;
     const PressedNodes<dim> *nodes = nullptr;
     const GroundRows<dim> *rows    = nullptr;
-    double time_step               = 0;
+    std::vector<PressedNode<dim>> reached; // of the nodes, by the parts and rows of any rank
+    double time_step = 0;
     std::vector<double> stiffness; // of H in a part's cell, m^3/(Pa s)
     FlowField<dim> flow;
     VertexVector full;

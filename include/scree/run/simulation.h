@@ -359,7 +359,7 @@ namespace scree
         archive &*scene.rain;
       for (PointSet<dim> *points : point_sets())
         archive & points->next_id;
-      archive &ground_tractions;
+      archive &solver_state;
       clock.set(time, step);
     }
 
@@ -386,10 +386,10 @@ namespace scree
     unsigned int n_refinements = 0;                // that followed the points
 
     RunBalance<dim> totals;
-    std::vector<FacetTractions<dim>> ground_tractions; // of all ranks, at checkpoints
-    double point_updates = 0;                          // points times steps, of this rank
-    UpdateReport last_update;                          // of this rank
-    double last_time_step                 = 0;         // s
+    SolverState<dim> solver_state;             // of all ranks, at checkpoints
+    double point_updates = 0;                  // points times steps, of this rank
+    UpdateReport last_update;                  // of this rank
+    double last_time_step                 = 0; // s
     unsigned long long step_of_checkpoint = std::numeric_limits<unsigned long long>::max(); // the newest, of this run
     bool is_released                      = true; // or was stopped while it settled
   };

@@ -74,8 +74,8 @@ namespace scree
             group.contact.project_to_boundary(body.points, time_step, report.speeds.points, group.closed_faces);
           }
     }
-    std::vector<FacetTractions<dim>> ground_tractions() const override;
-    void set_ground_tractions(const std::vector<FacetTractions<dim>> &tractions) override;
+    SolverState<dim> solver_state() const override;
+    void set_solver_state(const SolverState<dim> &state) override;
     void follow_ground() override
     {
       for (Group &group : groups)

@@ -8,7 +8,7 @@
 #include <scree/contact/rigid_surface.h>
 #include <scree/momentum/nodal_forces.h>
 #include <scree/momentum/surface_load.h>
-#include <scree/pressure/ground_rows.h>
+#include <scree/pressure/solver_state.h>
 #include <scree/step/step_report.h>
 #include <scree/transfer/transfer_parameters.h>
 #include <scree/transfer/water_transfer.h>
@@ -84,14 +84,14 @@ namespace scree
     {
     }
 
-    /// Tractions of the ground on all ranks, which the next step begins with beside the points. Collective.
-    virtual std::vector<FacetTractions<dim>> ground_tractions() const
+    /// What the next step begins with beside the points. Collective.
+    virtual SolverState<dim> solver_state() const
     {
       return {};
     }
 
-    /// Sets those of this rank, after reinit().
-    virtual void set_ground_tractions(const std::vector<FacetTractions<dim>> &)
+    /// Sets what of it this rank has, after reinit(). Collective.
+    virtual void set_solver_state(const SolverState<dim> &)
     {
     }
 

@@ -76,13 +76,17 @@ namespace scree
       add_nodal_forces(soil.field, &water_field, forces, time_step, sums);
       return sums;
     }
-    std::vector<FacetTractions<dim>> ground_tractions() const override
+    SolverState<dim> solver_state() const override
     {
-      return contact.tractions();
+      SolverState<dim> state;
+      state.tractions = contact.tractions();
+      pressure.save(state);
+      return state;
     }
-    void set_ground_tractions(const std::vector<FacetTractions<dim>> &tractions) override
+    void set_solver_state(const SolverState<dim> &state) override
     {
-      contact.set_tractions(tractions);
+      contact.set_tractions(state.tractions);
+      pressure.load(state);
     }
     std::vector<PointSet<dim> *> point_sets() override;
     const NodalField<dim> &soil_field() override

@@ -102,13 +102,11 @@ namespace scree
   {
     if (ground == nullptr)
       return {};
-    std::vector<FacetTractions<dim>> own, result;
+    std::vector<FacetTractions<dim>> own;
     for (const OfSegment &segment : of_segments)
       if (segment.tractions.soil.norm_square() + segment.tractions.water.norm_square() > 0.)
         own.push_back(segment.tractions);
-    for (const auto &of_rank : Utilities::MPI::all_gather(grid.communicator(), own))
-      result.insert(result.end(), of_rank.begin(), of_rank.end());
-    return result;
+    return join(grid.communicator(), own);
   }
 
 

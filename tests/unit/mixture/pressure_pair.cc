@@ -31,7 +31,7 @@ public:
     pair.find_moments([&](const unsigned int node) {
       return water_field[node][NodalField<dim>::mass] / 1000. + pores[node][PoreField<dim>::local_solid_volume];
     });
-    schur.begin_step(mixture);
+    schur.begin_step();
     for (MixtureCell<dim> &cell : mixture.cells())
       cell.mobility = 1e-3;
     // Two masses and their drag, soil alone, water alone, water that does not see the grains of the soil beside it.
