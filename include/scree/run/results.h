@@ -155,6 +155,7 @@ namespace scree
     /// After a checkpoint has been read: drops from lists and rows what was written after it.
     void cut()
     {
+      folder.remove("checks.csv");
       graphics.cut();
       for (TableFile &table : probes.files())
         table.cut();
@@ -173,11 +174,13 @@ namespace scree
     {
       add_checks(balances.results());
       add_checks(checks.results());
+      add_checks(statistics.results());
       add_checks(statistics.soil_motion().results());
       if (const std::string text = statistics.soil_motion().text(); !text.empty())
         folder.log(text);
       if (!found.empty())
         folder.log(verdict(found));
+      folder.write("checks.csv", verdict_table(found));
       folder.log("Results     " + text_of_results());
       if (folder.is_writer() && parameters.output.screen_kind() == Screen::statistics)
         statistics.print_last_row(std::cout);
