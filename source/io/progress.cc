@@ -48,25 +48,18 @@ namespace scree
 
   std::string verdict_table(const std::vector<CheckResult> &results)
   {
+    const auto quoted = [](const std::string &text) {
+      return '"' + boost::algorithm::replace_all_copy(text, "\"", "\"\"") + '"';
+    };
     std::string table = "check,value,bound,class,is_exceeded,place,remedy\n";
     for (const CheckResult &result : results)
       {
         const std::string finding = result.bound.empty()               ? "information"
                                     : result.finding == Finding::fault ? "fault"
                                                                        : "resolution";
-        std::string separator     = "";
-        for (const std::string &text : { result.name,
-                                         result.value,
-                                         result.bound,
-                                         finding,
-                                         std::string(result.is_exceeded ? "1" : "0"),
-                                         result.where,
-                                         result.remedy })
-          {
-            table += separator + '"' + boost::algorithm::replace_all_copy(text, "\"", "\"\"") + '"';
-            separator = ',';
-          }
-        table += '\n';
+        for (const std::string &text : { result.name, result.value, result.bound, finding })
+          table += quoted(text) + ',';
+        table += (result.is_exceeded ? "1," : "0,") + quoted(result.where) + ',' + quoted(result.remedy) + '\n';
       }
     return table;
   }

@@ -184,7 +184,7 @@ namespace scree
     if (!(largest > fall))
       return;
     if (!std::isinf(largest))
-      usual = std::max(usual, percentiles(speeds, 0., largest * (1. + 1e-9), { 0.999 }, grid.communicator())[0]);
+      usual = std::max(usual, percentile(speeds, 0.999, grid.communicator()));
     auto found = speeds.begin();
     for_each_named(phases, [&](const auto &, const auto &, const auto &name) {
       if (found->place > std::max(usual, fall))

@@ -105,72 +105,70 @@ namespace scree
       return result;
     const MPI_Comm communicator = grid.communicator();
     const Tensor<1, dim> up     = -gravity / gravity.norm();
-    const auto for_each_piece   = [&](const auto &act) {
-      for_each_moving_point(bodies, [&](const SoilBody<dim> &body, const auto &point) {
-        act(Piece{ vector_of<dim>(point.properties + body.layout.start),
-                   Tensor<1, dim>(point.location),
-                   vector_of<dim>(point.properties + body.layout.velocity),
-                   point.properties[body.layout.mass] });
-      });
+    std::vector<Piece> pieces;
+    for_each_moving_point(bodies, [&](const SoilBody<dim> &body, const auto &point) {
+      pieces.push_back({ vector_of<dim>(point.properties + body.layout.start),
+                         Tensor<1, dim>(point.location),
+                         vector_of<dim>(point.properties + body.layout.velocity),
+                         point.properties[body.layout.mass] });
+    });
+    const auto below = [&](const double fraction, const auto &value) { // what a fraction of the pieces' mass is below
+      std::vector<PartOfMass> parts;
+      for (const Piece &piece : pieces)
+        parts.push_back({ value(piece), piece.mass });
+      return percentile(parts, fraction, communicator);
     };
-    std::vector<PartOfMass> ways;
-    std::vector<double> ends(2, std::numeric_limits<double>::lowest()); // largest height, and minus the smallest, m
-    for_each_piece([&](const Piece &piece) {
-      ways.push_back({ (piece.place - piece.start).norm(), piece.mass });
-      for (const double height : { up * piece.start, up * piece.place })
-        ends = { std::max(ends[0], height), std::max(ends[1], -height) };
-    });
-    Utilities::MPI::max(ends, communicator, ends);
-    result.height               = std::max(ends[0] + ends[1], grid.cell_size());
-    result.largest_displacement = percentile(ways, 0.999, communicator);
+    const auto on_map = [&](const Piece &piece) { // displacement, m
+      return piece.place - piece.start - up * (piece.place - piece.start) * up;
+    };
+    result.height               = std::max(grid.cell_size(),
+                             below(1., [&](const Piece &p) { return std::max(up * p.start, up * p.place); }) -
+                                 below(0., [&](const Piece &p) { return std::min(up * p.start, up * p.place); }));
+    result.largest_displacement = below(0.999, [](const Piece &p) { return (p.place - p.start).norm(); });
 
+    std::vector<double> sums(3, 0.); // mass, and mass times speed, kg m/s, of all and of failed soil
+    Tensor<1, dim> way;              // of failed soil, times mass, kg m
+    SymmetricTensor<2, dim> spread;  // way times way times mass, kg m^2
     std::vector<Piece> failed;
-    double mass = 0., impulse = 0., failed_impulse = 0.; // sums of mass, and of mass times speed
-    SymmetricTensor<2, dim> spread;                      // of horizontal displacements, kg m^2
-    Tensor<1, dim> way;                                  // sum of them, kg m
-    for_each_piece([&](const Piece &piece) {
-      const Tensor<1, dim> displacement = piece.place - piece.start, on_map = displacement - (displacement * up) * up;
-      mass += piece.mass;
-      impulse += piece.mass * piece.velocity.norm();
-      if (on_map.norm() <= part_of_height * result.height)
-        return;
-      failed.push_back(piece);
-      result.failed_mass += piece.mass;
-      failed_impulse += piece.mass * piece.velocity.norm();
-      spread += piece.mass * symmetrize(outer_product(on_map, on_map));
-      way += piece.mass * on_map;
-    });
-    NumbersOf sums{ &mass, &impulse, &result.failed_mass, &failed_impulse };
-    sums &way;
-    sums.sum_over_ranks(communicator);
-    spread            = Utilities::MPI::sum(spread, communicator);
-    result.mean_speed = result.failed_mass > 0. ? failed_impulse / result.failed_mass : mass > 0. ? impulse / mass : 0.;
+    for (const Piece &piece : pieces)
+      {
+        const double speed = piece.mass * piece.velocity.norm();
+        const bool fails   = on_map(piece).norm() > part_of_height * result.height;
+        sums               = { sums[0] + piece.mass, sums[1] + speed, sums[2] + fails * speed };
+        if (fails)
+          {
+            failed.push_back(piece);
+            result.failed_mass += piece.mass;
+            way += piece.mass * on_map(piece);
+            spread += piece.mass * symmetrize(outer_product(on_map(piece), on_map(piece)));
+          }
+      }
+    Utilities::MPI::sum(sums, communicator, sums);
+    result.failed_mass = Utilities::MPI::sum(result.failed_mass, communicator);
     if (result.failed_mass == 0.)
-      return result;
+      {
+        result.mean_speed = sums[0] > 0. ? sums[1] / sums[0] : 0.;
+        return result;
+      }
+    pieces = failed;
 
     // Soil that spreads to both sides has no mean direction, but an axis.
-    const Tensor<1, dim> axis = eigenvectors(spread)[0].second, forward = (axis * way < 0. ? -1. : 1.) * axis;
-    std::vector<PartOfMass> heights, starts, places; // along gravity; along the motion
-    for (const Piece &piece : failed)
-      {
-        heights.push_back({ up * piece.start, piece.mass });
-        starts.push_back({ forward * piece.start, piece.mass });
-        places.push_back({ forward * piece.place, piece.mass });
-      }
-    const double toe        = percentile(places, part_of_mass, communicator);
-    result.length           = toe - percentile(starts, 1. - part_of_mass, communicator);
-    result.toe_displacement = toe - percentile(starts, part_of_mass, communicator);
-    double toe_mass = 0., toe_height = 0.; // kg, kg m
-    for (const Piece &piece : failed)
-      if (forward * piece.place >= toe - 1e-9 * grid.cell_size())
-        {
-          toe_mass += piece.mass;
-          toe_height += piece.mass * (up * piece.place);
-          result.toe_speed += piece.mass * (forward * piece.velocity);
-        }
-    NumbersOf{ &toe_mass, &toe_height, &result.toe_speed }.sum_over_ranks(communicator);
-    result.toe_speed /= toe_mass;
-    result.fall = percentile(heights, 0.999, communicator) - toe_height / toe_mass; // a single point is no scarp
+    const Tensor<1, dim> axis    = eigenvectors(Utilities::MPI::sum(spread, communicator))[0].second;
+    const Tensor<1, dim> forward = (axis * Utilities::MPI::sum(way, communicator) < 0. ? -1. : 1.) * axis;
+    const auto start             = [&](const Piece &piece) { return forward * piece.start; };
+    const double toe             = below(part_of_mass, [&](const Piece &piece) { return forward * piece.place; });
+    result.mean_speed            = sums[2] / result.failed_mass;
+    result.length                = toe - below(1. - part_of_mass, start);
+    result.toe_displacement      = toe - below(part_of_mass, start);
+    sums.assign(3, 0.); // mass of the toe; times height, times speed
+    for (const Piece &piece : pieces)
+      if (const double m = piece.mass; forward * piece.place >= toe - 1e-9 * grid.cell_size())
+        sums = { sums[0] + m, sums[1] + m * (up * piece.place), sums[2] + m * (forward * piece.velocity) };
+    Utilities::MPI::sum(sums, communicator, sums);
+    result.fall = below(0.999, [&](const Piece &p) { return up * p.start; }) - sums[1] / sums[0]; // no single point
+    result.toe_speed    = sums[2] / sums[0];
+    result.ratio        = result.length > 0. ? result.fall / result.length : 0.;
+    result.travel_angle = std::atan(result.ratio) * 180. / numbers::PI;
     return result;
   }
 
@@ -214,8 +212,8 @@ namespace scree
     lines +=
         '\n' + in_lines("Run-out",
                         (is_at_rest() ? "" : "so far: ") + ("H = " + short_text(last.fall)) +
-                            " m, L = " + short_text(last.length) + " m, H/L = " + short_text(last.drop_ratio()) +
-                            ", travel angle " + short_text(last.travel_angle()) + " degrees; the toe has moved " +
+                            " m, L = " + short_text(last.length) + " m, H/L = " + short_text(last.ratio) +
+                            ", travel angle " + short_text(last.travel_angle) + " degrees; the toe has moved " +
                             short_text(last.toe_displacement) + " m, the fastest soil " +
                             short_text(last.largest_displacement) + " m; deposit " + short_text(last.area) +
                             (dim == 2 ? " m, " : " m^2, ") + short_text(last.volume) + (dim == 2 ? " m^3/m" : " m^3"));

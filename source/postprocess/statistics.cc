@@ -118,8 +118,8 @@ namespace scree
       add_value(row, "Largest displacement", "m", motion.largest_displacement);
       add_value(row, "Run-out length", "m", motion.length);
       add_value(row, "Fall height", "m", motion.fall);
-      add_value(row, "Run-out H/L", "-", motion.drop_ratio());
-      add_value(row, "Travel angle", "degrees", motion.travel_angle());
+      add_value(row, "Run-out H/L", "-", motion.ratio);
+      add_value(row, "Travel angle", "degrees", motion.travel_angle);
       add_value(row, "Deposit area", "m^2", motion.area);
       add_value(row, "Deposit volume", "m^3", motion.volume);
     }

@@ -39,13 +39,6 @@ namespace scree
         write_whole_files({ { file(name), text } });
     }
 
-    /// Removes a file of the folder, if it is there.
-    void remove(const std::string &name) const
-    {
-      if (writer)
-        std::filesystem::remove(file(name));
-    }
-
     /// Throws EntryError on all ranks if somebody has removed the folder. Collective.
     void require_presence() const
     {

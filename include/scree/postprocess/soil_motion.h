@@ -24,24 +24,15 @@ namespace scree
     double area                 = 0; ///< of the deposit, m^2 (2D: m)
     double volume               = 0; ///< of the deposit, m^3 (2D: m^2)
 
-    /// H/L; 0 without a path.
-    double drop_ratio() const
-    {
-      return length > 0. ? fall / length : 0.;
-    }
-
-    /// atan(H/L), degrees.
-    double travel_angle() const
-    {
-      return std::atan(drop_ratio()) * 180. / dealii::numbers::PI;
-    }
+    double ratio        = 0; ///< H/L
+    double travel_angle = 0; ///< atan(H/L), degrees
 
     /// Saves or loads all of it (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
       archive &height &failed_mass &mean_speed &toe_speed &speed &thickness;
-      archive &length &fall &toe_displacement &largest_displacement &area &volume;
+      archive &length &fall &toe_displacement &largest_displacement &area &volume &ratio &travel_angle;
     }
   };
 

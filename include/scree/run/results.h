@@ -155,7 +155,7 @@ namespace scree
     /// After a checkpoint has been read: drops from lists and rows what was written after it.
     void cut()
     {
-      folder.remove("checks.csv");
+      folder.write("checks.csv", ""); // those of a run that has gone on
       graphics.cut();
       for (TableFile &table : probes.files())
         table.cut();

@@ -72,16 +72,17 @@ void test_path()
   expect(first.toe_displacement, 0.25, 1e-9, "displacement of the toe");
   expect(first.largest_displacement, std::hypot(0.25, 0.1), 1e-9, "largest displacement");
   expect(first.fall, 0.4 - 0.1, 0.02, "H"); // the toe is a wall of soil, 0.4 m high: its middle is at 0.1 m
-  expect(first.drop_ratio(), first.fall / first.length, 0., "H/L");
-  expect(first.travel_angle(), std::atan(first.drop_ratio()) * 180. / numbers::PI, 1e-12, "travel angle");
+  expect(first.ratio, first.fall / first.length, 0., "H/L");
+  expect(first.travel_angle, std::atan(first.ratio) * 180. / numbers::PI, 1e-12, "travel angle");
   for (unsigned int axis = 0; axis + 1 < dim; ++axis)
     for (const bool is_mirrored : { false, true })
       for (const double tilt : { -1e-3, 0., 1e-3 })
         {
           const MotionNumbers other = slide<dim>(axis, is_mirrored, tilt);
-          expect(other.length, first.length, 1e-9, "L of a bank turned, mirrored or tilted");
-          expect(other.toe_displacement, first.toe_displacement, 1e-9, "displacement of its toe");
-          expect(other.fall, first.fall, 1e-3, "its H");
+          const double allowed      = tilt == 0. ? 1e-9 : 0.02; // a crest that is cut by cells has other points
+          expect(other.length / first.length, 1., allowed, "L of a bank turned, mirrored or tilted");
+          expect(other.toe_displacement / first.toe_displacement, 1., allowed, "displacement of its toe");
+          expect(other.fall / first.fall, 1., allowed, "its H");
         }
 }
 

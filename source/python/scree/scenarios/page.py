@@ -212,19 +212,18 @@ def _quantile_table(study, done):
     rows = []
     for one in done.results:
         _, values = series(done, study, one)
-        if len(values) > 1 and one.key not in ("toe_x", "toe_y", "mass_lost"):
+        if len(values) > 1 and one.key != "mass_lost":
             rows.append((one.name, one.unit, *map(float, evaluation.quantiles(values)), float(np.mean(values)), float(min(values)), float(max(values))))
     head = ("result", "unit", *(f"{100 * part:g} %" for part in evaluation.QUANTILES), "mean", "smallest", "largest")
     return report.table(rows, head) + '\n<p class="note">The given part of the runs stays below the value.</p>' if rows else ""
 
 
 def _run_table(study, done):
-    shown = [one for one in done.results if one.key not in ("toe_x", "toe_y")]
     rows = []
     for number, row in zip(study.numbers, study.rows):
         verdict, found = done.verdicts[number], done.numbers.get(number, {})
-        rows.append((number, *map(_short, row), verdict.word, _checks(verdict), *(f"{found[one]:.5g}" if one in found else "" for one in shown)))
-    head = ("run", *(one.label for one in study.parameters), "verdict", "checks", *(one.name + (f" ({one.unit})" if one.unit != "-" else "") for one in shown))
+        rows.append((number, *map(_short, row), verdict.word, _checks(verdict), *(f"{found[one]:.5g}" if one in found else "" for one in done.results)))
+    head = ("run", *(one.label for one in study.parameters), "verdict", "checks", *(one.name + (f" ({one.unit})" if one.unit != "-" else "") for one in done.results))
     return f'<div style="overflow-x: auto">{report.table(rows, head)}</div>'
 
 
