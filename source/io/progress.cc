@@ -59,7 +59,8 @@ namespace scree
                                                                        : "resolution";
         for (const std::string &text : { result.name, result.value, result.bound, finding })
           table += quoted(text) + ',';
-        table += (result.is_exceeded ? "1," : "0,") + quoted(result.where) + ',' + quoted(result.remedy) + '\n';
+        table += (result.is_exceeded ? "1," : "0,") + quoted(result.where) + ',' +
+                 quoted(result.is_exceeded ? result.remedy : "") + '\n';
       }
     return table;
   }

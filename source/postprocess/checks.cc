@@ -53,13 +53,13 @@ namespace scree
         "look at this place in the pictures; halve \"Courant number\", or write a smaller stiffness" },
       { std::numeric_limits<double>::infinity(), "largest stress of a single point", "VALUE of rho g H", "", "" },
       { 0.,
-        "soil at a wall of the box",
-        "has come FOUND m",
+        "soil that has come to a wall of the box",
+        "FOUND m",
         "it has come to this wall or up it, which cuts off the run-out",
         move_corner },
       { 0.,
-        "soil along a wall of the box",
-        "has moved FOUND m",
+        "soil that has moved along a wall of the box",
+        "FOUND m",
         "it stood at this wall and has moved along it, so that the wall cuts off the slide",
         move_corner,
         Finding::resolution },
@@ -260,9 +260,10 @@ namespace scree
               const double place    = (face % 2 == 0 ? grid.lower_corner() : grid.upper_corner())[face / 2];
               const double distance = std::abs(point.location[face / 2] - place);
               const double before   = std::abs(start[face / 2] - place);
+              const bool has_come   = before - distance > h;
               // Soil that stands at a wall slides down along it; that it goes up shows that the wall stops it.
-              const bool is_stopped = before - distance > h || -(gravity * way) > h * gravity.norm();
-              if (distance < h && (is_stopped || before < h))
+              const bool is_stopped = has_come || -(gravity * way) > h * gravity.norm();
+              if (distance < h && (has_come || (before < h && inflow_faces.count(face) == 0)))
                 suspect(is_stopped ? wall : slide, way.norm(), way.norm(), [&] {
                   return name() + ", at " + wall_text(grid, face);
                 });

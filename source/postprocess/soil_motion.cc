@@ -13,7 +13,7 @@ namespace scree
   {
     constexpr double flow_part      = 0.1;  // of sqrt(g h): oscillations of soil at rest are slower
     constexpr double least_change   = 0.1;  // of the cell size: less is no deposit of a column
-    constexpr double part_of_height = 0.01; // of all soil: what has moved by more, horizontally, has failed
+    constexpr double part_of_height = 0.02; // of all soil: what has moved by more, horizontally, has failed
     constexpr double part_of_mass   = 0.99; // of failed soil, behind the toe and in front of the scarp
     constexpr double steepest_wall  = 0.5;  // cosine of the slope: steeper ground is a wall beside the soil
 
@@ -132,9 +132,12 @@ namespace scree
     std::vector<Piece> failed;
     for (const Piece &piece : pieces)
       {
-        const double speed = piece.mass * piece.velocity.norm();
-        const bool fails   = on_map(piece).norm() > part_of_height * result.height;
-        sums               = { sums[0] + piece.mass, sums[1] + speed, sums[2] + fails * speed };
+        // Along the way so far: elastic oscillations cancel each other.
+        const Tensor<1, dim> displacement = piece.place - piece.start;
+        const double speed =
+            displacement.norm() > 0. ? piece.mass * (piece.velocity * displacement) / displacement.norm() : 0.;
+        const bool fails = on_map(piece).norm() > part_of_height * result.height;
+        sums             = { sums[0] + piece.mass, sums[1] + speed, sums[2] + fails * speed };
         if (fails)
           {
             failed.push_back(piece);
@@ -187,7 +190,7 @@ namespace scree
                        Finding::resolution });
     if (last.failed_mass > 0.)
       list.push_back({ "speed of failed soil at the end",
-                       short_text(std::max(last.mean_speed, std::abs(last.toe_speed))) + " m/s",
+                       short_text(std::max(std::abs(last.mean_speed), std::abs(last.toe_speed))) + " m/s",
                        short_text(rest_speed()) + " m/s",
                        !is_at_rest(),
                        "the run-out is not final: write a later \"End time\"",

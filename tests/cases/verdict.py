@@ -134,7 +134,7 @@ def walls():
     column = {"End time": 0.8, "Mesh/Cell size": 0.1, "Output/Graphics": "none", "Output/Statistics interval": 0.1, "Soil/Region": "x < 0.5 && y < 1",
               "Soil/Points per cell": 2, "Soil/Material": "Mohr-Coulomb", "Soil/Grain density": 2650, "Soil/Mohr-Coulomb/Young's modulus": 1e6,
               "Soil/Mohr-Coulomb/Poisson's ratio": 0.3, "Soil/Mohr-Coulomb/Friction angle": 30}
-    coming, along = "soil at a wall of the box", "soil along a wall of the box"
+    coming, along = "soil that has come to a wall of the box", "soil that has moved along a wall of the box"
     for name, length, forces, faults in ("short", 1, "false", [coming]), ("long", 4, "false", []), ("structure", 1, "true", []):
         results = run(name, {**column, "Mesh/Upper corner": f"{length}, 1.2", "Probes/Wall forces": forces})
         checks = found(results)
@@ -142,9 +142,9 @@ def walls():
         check((coming in checks) == (along in checks) == (forces == "false"), str(checks))
         if forces == "false":
             slid = re.match(r"Soil, point \d+ at \(0\.0\S*, \S+\) m, at the wall x = 0 m \(\"Lower corner\"\), t = \S+ s: it stood at this wall", checks[along].place)
-            check(along in beyond(results, "resolution") and slid and 0.2 < float(checks[along].value.split()[2]) < 0.8 and checks[along].remedy, str(checks))
+            check(along in beyond(results, "resolution") and slid and 0.2 < float(checks[along].value.split()[0]) < 0.8 and checks[along].remedy, str(checks))
     one = found("short/results")[coming]
-    check(re.match(r"has come 0\.[4-9]\d* m", one.value) and re.match(r"Soil, point \d+ at \(0\.9\S*, \S+\) m, at the wall x = 1 m \(\"Upper corner\"\), t = ", one.place)
+    check(re.match(r"0\.[4-9]\d* m", one.value) and re.match(r"Soil, point \d+ at \(0\.9\S*, \S+\) m, at the wall x = 1 m \(\"Upper corner\"\), t = ", one.place)
           and one.remedy.startswith("move the corner"), str(one))
 
 
@@ -153,7 +153,7 @@ def inflow():
     results = run("inflow", {**RUN, "End time": 0.6, "Mesh/Upper corner": "6, 1", "Mesh/Cell size": 0.1, "Output/Statistics interval": 0.1, "Boundaries/Bottom": "friction 20",
                              "Boundaries/Right": "open", "Soil/Linear elastic/Young's modulus": 1e6, "Inflow Gate/Body": "Soil", "Inflow Gate/Face": "Left",
                              "Inflow Gate/Region": "y < 0.4", "Inflow Gate/Velocity": "1, 0"})
-    check(not {"soil at a wall of the box", "soil along a wall of the box"} & set(beyond(results, "fault") + beyond(results, "resolution")), str(found(results)))
+    check(not any("wall" in name for kind in ("fault", "resolution") for name in beyond(results, kind)), str(found(results)))
 
 
 def oscillation():

@@ -16,15 +16,18 @@ namespace scree
     /// All are kept by reference.
     /// @param bed null: none
     /// @param walls of the box; null: they are structures that soil may hit
+    /// @param inflow_faces that soil enters through, in deal.II's numbering
     RunChecks(const BackgroundGrid<dim> &grid,
               const dealii::Tensor<1, dim> &gravity,
               const DiscreteLevelSet<dim> *bed,
               const BoundaryConditions<dim> *walls,
+              const std::set<unsigned int> &inflow_faces,
               RunFolder &folder)
         : grid(grid)
         , gravity(gravity)
         , bed(bed)
         , walls(walls)
+        , inflow_faces(inflow_faces)
         , folder(folder)
     {
     }
@@ -101,6 +104,7 @@ namespace scree
     const dealii::Tensor<1, dim> gravity;
     const DiscreteLevelSet<dim> *bed;
     const BoundaryConditions<dim> *walls;
+    const std::set<unsigned int> inflow_faces;
     RunFolder &folder;
     double usual_speed_of_soil = 0., usual_speed_of_water = 0.; // largest 99.9 % quantiles so far, m/s
     Suspects now, worst;

@@ -12,8 +12,8 @@ namespace scree
   struct MotionNumbers
   {
     double height           = 0; ///< between the highest and the lowest place of soil so far, at least a cell, m
-    double failed_mass      = 0; ///< of soil that has moved by more than 1 % of this height on the map, kg
-    double mean_speed       = 0; ///< of failed soil, without it of all, m/s
+    double failed_mass      = 0; ///< of soil that has moved by more than 2 % of this height on the map, kg
+    double mean_speed       = 0; ///< of failed soil along its displacement, without it of all, m/s
     double toe_speed        = 0; ///< of the toe, along the motion, m/s
     double speed            = 0; ///< that 1 % of the mass exceeds, m/s
     double thickness        = 0; ///< of moving (at the start: all) soil, normal to the ground, median by volume, cells
@@ -86,7 +86,7 @@ namespace scree
     }
     bool is_at_rest() const
     {
-      return std::max(last.mean_speed, std::abs(last.toe_speed)) <= rest_speed();
+      return std::max(std::abs(last.mean_speed), std::abs(last.toe_speed)) <= rest_speed();
     }
 
     const BackgroundGrid<dim> &grid;

@@ -73,6 +73,7 @@ namespace scree
                  scene.forcing.gravity(),
                  scene.bed.get(),
                  parameters.probes.wall_forces ? nullptr : &scene.walls,
+                 inflow_faces(scene.parameters),
                  folder)
         , balances(scene.grid, scene.forcing)
         , files(scene.grid.communicator())
@@ -204,6 +205,14 @@ namespace scree
     }
 
   private:
+    static std::set<unsigned int> inflow_faces(const Parameters &parameters)
+    {
+      std::set<unsigned int> faces;
+      for (const InflowParameters &inflow : parameters.inflows)
+        faces.insert(inflow.face_number(dim));
+      return faces;
+    }
+
     /// Where the results are.
     std::string text_of_results() const
     {
