@@ -73,7 +73,7 @@ def test_log():
     log = results.read_log(folder(LOG))
     assert log.parts["Checks"].splitlines()[1] == "within bounds: mass balance 0; points of soil lost 0", log.parts
     assert log.parts["Model"] == "2D plane strain, dry, FLIP, 38480 soil points"
-    assert [line[:30] for line in log.warnings] == ["Unusual value: my.prm, line 3:", "Check: smallest V/V_0 0.5; Soil", "'Maximum time step' bounds 90 "], log.warnings
+    assert [line[:30] for line in log.warnings] == ["Unusual value: my.prm, line 3:", "Check: smallest V/V_0 0.5; Soi", "'Maximum time step' bounds 90 "], log.warnings
     assert log.warnings[-1].endswith("steps. Write a larger one.")
     identity = dict(report.identity("run", log))
     assert (identity["Commit"], identity["Command"], identity["Start of the run"]) == ("abc1234", "mpirun -np 2 scree my <slope>.prm", "2026-11-25 12:53:12 UTC")
