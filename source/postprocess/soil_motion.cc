@@ -163,13 +163,18 @@ namespace scree
     result.mean_speed            = sums[2] / result.failed_mass;
     result.length                = toe - below(1. - part_of_mass, start);
     result.toe_displacement      = toe - below(part_of_mass, start);
-    sums.assign(3, 0.); // mass of the toe; times height, times speed
+    sums.assign(2, 0.); // mass of the toe, and times speed
+    double toe_height = std::numeric_limits<double>::lowest();
     for (const Piece &piece : pieces)
-      if (const double m = piece.mass; forward * piece.place >= toe - 1e-9 * grid.cell_size())
-        sums = { sums[0] + m, sums[1] + m * (up * piece.place), sums[2] + m * (forward * piece.velocity) };
+      if (forward * piece.place >= toe - 1e-9 * grid.cell_size())
+        {
+          sums       = { sums[0] + piece.mass, sums[1] + piece.mass * (forward * piece.velocity) };
+          toe_height = std::max(toe_height, up * piece.place);
+        }
     Utilities::MPI::sum(sums, communicator, sums);
-    result.fall = below(0.999, [&](const Piece &p) { return up * p.start; }) - sums[1] / sums[0]; // no single point
-    result.toe_speed    = sums[2] / sums[0];
+    result.toe_speed = sums[1] / sums[0];
+    result.fall      = below(0.999, [&](const Piece &piece) { return up * piece.start; }) - // no single point
+                  Utilities::MPI::max(toe_height, communicator);
     result.ratio        = result.length > 0. ? result.fall / result.length : 0.;
     result.travel_angle = std::atan(result.ratio) * 180. / numbers::PI;
     return result;

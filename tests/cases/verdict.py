@@ -56,9 +56,9 @@ def slide():
     check(abs(row["Toe speed (m/s)"] / (9.81 * 0.5 * 0.5 * np.cos(np.pi / 6)) - 1) < 0.1, f"speed of the toe {row['Toe speed (m/s)']}")
     check(abs(row["Speed 99 % (m/s)"] / (9.81 * 0.5 * 0.5) - 1) < 0.1, f"speed {row['Speed 99 % (m/s)']}")
     check(abs(row["Moving thickness (cells)"] / 0.8 - 1) < 0.1, f"thickness {row['Moving thickness (cells)']}")
-    check(re.match(r"resolution: thickness of the moving soil 0\.[78]\d* cells \(bound at least 3\); what to do: for thicknesses, use cells of at most 0\.05\d+ m",
+    check(re.search(r"resolution: thickness of the moving soil 0\.[78]\d* cells \(bound at least 3\); what to do: for thicknesses, use cells of at most 0\.05\d+ m",
                    log.parts["Checks"].replace("\n", " ")), log.parts["Checks"])
-    check(beyond(results, "fault") == [] and beyond(results, "resolution")[0] == "speed of failed soil at the end", str(found(results)))
+    check(beyond(results, "fault") == [] and {"speed of failed soil at the end", "thickness of the moving soil"} <= set(beyond(results, "resolution")), str(found(results)))
     # The slab of 1.6 m along y has moved by s = g sin(30) t^2/2 = 0.613 m, its front by s cos(30) on the map.
     way = 9.81 * 0.5 * 0.5**2 / 2
     length, fall = 1.6 + way * np.cos(np.pi / 6), (1.6 + way * np.cos(np.pi / 6)) * np.tan(np.pi / 6)
@@ -99,13 +99,14 @@ def stress():
 
 
 def single():
-    """A point that closes a gap has a large stress of its own: it is told apart, and is no fault."""
-    drop = {"End time": 0.1, "Mesh/Upper corner": "4, 1.2", "Mesh/Cell size": 0.05, "Soil/Region": "y < 1 || (abs(x - 2) < 0.006 && y > 1.005 && y < 1.02)",
-            "Soil/Initial velocity": "0; if(y > 1, -6, 0)", "Soil/Points per cell": 4}
-    layer("drop", **drop)
-    checks = found("drop/results")
+    """The stress of a single point is told apart, and is no fault: one of 3200 points begins with 2.6 times the weight of the soil."""
+    spot = {f"Spot/{entry.removeprefix('Soil/')}": value for entry, value in LAYER.items() if entry.startswith("Soil/")}
+    layer("spot", **{**spot, "Bodies": "Soil, Spot", "Soil/Points per cell": 4, "Spot/Points per cell": 4, "Spot/Initial state/Type": "isotropic",
+                     "Spot/Initial state/Pressure": 4e4, "Spot/Region": "x > 1 && x < 1.02 && y > 0.5 && y < 0.52",
+                     "Soil/Region": "y < 1 && (x < 1 || x > 1.02 || y < 0.5 || y > 0.52)"})
+    checks = found("spot/results")
     all_points, point = (float(checks[name].value.split()[0]) for name in ("largest stress", "largest stress of a single point"))
-    check(point > 1.2 * all_points and all_points < 1.5 and not checks["largest stress"].is_exceeded, str(checks))
+    check(2.2 < point < 2.7 and 0.9 < all_points < 1.2 and not checks["largest stress"].is_exceeded, str(checks))
     check(checks["largest stress of a single point"].kind == "information", str(checks))
 
 
@@ -152,7 +153,7 @@ def inflow():
     """Soil beside the face through which it has come in has not come to a wall."""
     results = run("inflow", {**RUN, "End time": 0.6, "Mesh/Upper corner": "6, 1", "Mesh/Cell size": 0.1, "Output/Statistics interval": 0.1, "Boundaries/Bottom": "friction 20",
                              "Boundaries/Right": "open", "Soil/Linear elastic/Young's modulus": 1e6, "Inflow Gate/Body": "Soil", "Inflow Gate/Face": "Left",
-                             "Inflow Gate/Region": "y < 0.4", "Inflow Gate/Velocity": "1, 0"})
+                             "Inflow Gate/Region": "y < 0.4", "Inflow Gate/Speed": 1})
     check(not any("wall" in name for kind in ("fault", "resolution") for name in beyond(results, kind)), str(found(results)))
 
 
