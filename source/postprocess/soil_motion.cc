@@ -11,11 +11,11 @@ namespace scree
 
   namespace
   {
-    constexpr double flow_part      = 0.1;  // of sqrt(g h): oscillations of soil at rest are slower
-    constexpr double least_change   = 0.1;  // of the cell size: less is no deposit of a column
-    constexpr double part_of_height = 0.02; // of all soil: what has moved by more, horizontally, has failed
-    constexpr double part_of_mass   = 0.99; // of failed soil, behind the toe and in front of the scarp
-    constexpr double steepest_wall  = 0.5;  // cosine of the slope: steeper ground is a wall beside the soil
+    constexpr double flow_part      = 0.1;    // of sqrt(g h): oscillations of soil at rest are slower
+    constexpr double least_change   = 0.1;    // of the cell size: less is no deposit of a column
+    constexpr double part_of_height = 0.0125; // of all soil: what has moved by more, horizontally, has failed
+    constexpr double part_of_mass   = 0.99;   // of failed soil, behind the toe and in front of the scarp
+    constexpr double steepest_wall  = 0.5;    // cosine of the slope: steeper ground is a wall beside the soil
 
     /// Length normal to the ground over that along the last axis.
     template <int dim, typename PointOfSet>
