@@ -214,7 +214,7 @@ namespace scree
                  std::string(is_at_rest() ? "at rest" : "not at rest") + " at the end, t = " + short_text(last_time) +
                      " s: " + (last.failed_mass > 0. ? "failed soil moves at " : "the soil moves at ") +
                      short_text(last.mean_speed) + " m/s in the mean, the toe at " + short_text(last.toe_speed) +
-                     " m/s; at rest below " + short_text(rest_speed()) + " m/s (0.002 sqrt(g H))");
+                     " m/s; at rest below " + short_text(rest_speed()) + " m/s (0.004 sqrt(g H))");
     if (last.failed_mass == 0.)
       return lines;
     lines +=

@@ -12,7 +12,7 @@ namespace scree
   struct MotionNumbers
   {
     double height           = 0; ///< between the highest and the lowest place of soil so far, at least a cell, m
-    double failed_mass      = 0; ///< of soil that has moved by more than 2 % of this height on the map, kg
+    double failed_mass      = 0; ///< of soil that has moved by more than 1.25 % of this height on the map, kg
     double mean_speed       = 0; ///< of failed soil along its displacement, without it of all, m/s
     double toe_speed        = 0; ///< of the toe, along the motion, m/s
     double speed            = 0; ///< that 1 % of the mass exceeds, m/s
@@ -81,7 +81,7 @@ namespace scree
     /// Soil below this speed rests, m/s.
     double rest_speed() const
     {
-      constexpr double part = 2e-3; // of sqrt(g H): in sqrt(H/g) it moves by 0.2 % of H
+      constexpr double part = 4e-3; // of sqrt(g H): in sqrt(H/g) it moves by 0.4 % of H
       return part * std::sqrt(gravity.norm() * last.height);
     }
     bool is_at_rest() const

@@ -116,7 +116,7 @@ void test_kinds()
 }
 
 
-/// At rest below 2e-3 sqrt(g H), in the mean and at the toe; lost soil makes the run-out a lower bound.
+/// At rest below 4e-3 sqrt(g H), in the mean and at the toe; lost soil makes the run-out a lower bound.
 template <int dim>
 void test_rest()
 {
@@ -129,13 +129,13 @@ void test_rest()
                         [](const auto &one) { return one.name == "speed of failed soil at the end"; })
         ->is_exceeded;
   };
-  bank.move(0.3, 0.6, 0.25, 0., 0.003);
+  bank.move(0.3, 0.6, 0.25, 0., 0.006);
   const MotionNumbers slow = bank.look();
-  expect(slow.mean_speed, 0.003, 1e-12, "mean speed");
-  expect(slow.toe_speed, 0.003, 1e-12, "speed of the toe");
+  expect(slow.mean_speed, 0.006, 1e-12, "mean speed");
+  expect(slow.toe_speed, 0.006, 1e-12, "speed of the toe");
   require(!speed_at_end() && bank.motion.text().find("Motion      at rest at the end") == 0, bank.motion.text());
-  bank.move(0.3, 0.55, 0., 0., 0.006);
-  expect(bank.look().toe_speed, 0.003, 1e-12, "speed of the toe alone");
+  bank.move(0.3, 0.55, 0., 0., 0.012);
+  expect(bank.look().toe_speed, 0.006, 1e-12, "speed of the toe alone");
   require(speed_at_end() && bank.motion.text().find("Run-out     so far: H = ") != std::string::npos,
           bank.motion.text());
 
