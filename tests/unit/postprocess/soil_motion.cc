@@ -162,5 +162,3 @@ const UnitTest registered("soil_motion", [] {
   test<3>();
 });
 } // namespace test_soil_motion
-
-// Runs with mpirun=1,2.
