@@ -30,19 +30,21 @@ struct Bank
   /// Moves the soil between two distances by `way` forwards and `fall` downwards, and gives it a speed forwards.
   void move(const double from, const double to, const double way, const double fall, const double speed = 0.)
   {
-    const double sign = is_mirrored ? -1. : 1.;
+    constexpr unsigned int n_steps = 10; // points may pass on to the next cell, or its rank
+    const double sign              = is_mirrored ? -1. : 1.;
     for (auto &body : scene.bodies)
-      {
-        for_each_point(body.points, [&](const auto &point) {
-          const double start = point.properties[body.layout.start + axis], x = is_mirrored ? 1.2 - start : start;
-          if (x < from || x > to)
-            return;
-          point.location[axis] += sign * way;
-          point.location[dim - 1] -= fall;
-          point.properties[body.layout.velocity + axis] = sign * speed;
-        });
-        body.points.hand_over();
-      }
+      for (unsigned int step = 0; step < n_steps; ++step)
+        {
+          for_each_point(body.points, [&](const auto &point) {
+            const double start = point.properties[body.layout.start + axis], x = is_mirrored ? 1.2 - start : start;
+            if (x < from || x > to)
+              return;
+            point.location[axis] += sign * way / n_steps;
+            point.location[dim - 1] -= fall / n_steps;
+            point.properties[body.layout.velocity + axis] = sign * speed;
+          });
+          body.points.hand_over();
+        }
   }
 
   MotionNumbers look(const Tensor<1, 2 *dim> &lost = Tensor<1, 2 * dim>())
