@@ -164,3 +164,5 @@ const UnitTest registered("soil_motion", [] {
   test<3>();
 });
 } // namespace test_soil_motion
+
+// Runs with mpirun=1,2.
