@@ -113,7 +113,7 @@ namespace scree
           {
             scene.is_layer = true;
             SoilMotion<dim> motion(grid, Tensor<1, dim>(), run.bed.get());
-            scene.height = grid.cell_size() * motion.look(run.bodies, 0.).thickness;
+            scene.height = grid.cell_size() * motion.look(run.bodies, Tensor<1, 2 * dim>(), 0.).thickness;
             return;
           }
         // Largest coordinate and minus the smallest, for each axis.

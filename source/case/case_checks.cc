@@ -196,7 +196,7 @@ namespace scree
     parameters.body_forces.check(parameters.dimension);
     parameters.settling.check(parameters.gravity);
     parameters.safety.check();
-    parameters.probes.check(parameters.grid, parameters.dimension, !parameters.bodies.empty());
+    parameters.probes.check(parameters.grid, parameters.dimension);
     for (const auto &body : parameters.bodies)
       body.check(parameters.gravity, parameters.has_water ? &parameters.water : nullptr);
     check_contacts(parameters);

@@ -2,54 +2,67 @@
 #include <scree/io/progress.h>
 #include <scree/step/step_report.h>
 
+#include <boost/algorithm/string/replace.hpp>
+#include <boost/algorithm/string/trim.hpp>
+
 #include <ctime>
+#include <sstream>
 
 namespace scree
 {
   using namespace dealii;
 
-  namespace
+  std::string in_lines(const std::string &label, const std::string &text)
   {
-    /// Puts texts behind each other, with a new line before one that would pass the margin.
-    std::string in_lines(const std::string &label, const std::vector<std::string> &texts)
-    {
-      constexpr std::size_t margin = 100;
-      const std::string indent(12, ' ');
-      std::string lines, line = indent + label;
-      for (std::size_t t = 0; t < texts.size(); ++t)
+    constexpr std::size_t margin = 100, indent = 11;
+    std::string lines, word, line = label + std::string(indent - label.size(), ' ');
+    for (std::istringstream words(text); words >> word; line += ' ' + word)
+      if (line.size() + 1 + word.size() > margin)
         {
-          const std::string item = ' ' + texts[t] + (t + 1 < texts.size() ? ";" : "");
-          if (line.size() + item.size() > margin)
-            {
-              lines += line + '\n';
-              line = indent.substr(1);
-            }
-          line += item;
+          lines += line + '\n';
+          line = std::string(indent, ' ');
         }
-      return lines + line;
-    }
-  } // namespace
+    return lines + line;
+  }
 
 
   std::string verdict(const std::vector<CheckResult> &results)
   {
-    std::vector<std::string> exceeded, others;
-    std::string places;
+    std::string lines, within;
+    for (const Finding finding : { Finding::fault, Finding::resolution })
+      for (const CheckResult &result : results)
+        if (result.is_exceeded && result.finding == finding)
+          lines +=
+              in_lines(lines.empty() ? "Checks" : "",
+                       (finding == Finding::fault ? "fault: " : "resolution: ") + result.name + ' ' + result.value +
+                           " (bound " + result.bound + ')' + (result.where.empty() ? "" : "; " + result.where) +
+                           (result.remedy.empty() ? "" : "; what to do: " + result.remedy)) +
+              '\n';
     for (const CheckResult &result : results)
       if (!result.is_exceeded)
-        others.push_back(result.text);
-      else
-        {
-          exceeded.push_back(result.text + " (bound " + result.bound + ')');
-          if (!result.where.empty())
-            places += "\n            worst: " + result.where;
-        }
-    std::string lines;
-    if (!exceeded.empty())
-      lines = in_lines("out of bounds:", exceeded) + places + (others.empty() ? "" : "\n");
-    if (!others.empty())
-      lines += in_lines("within bounds:", others);
-    return "Checks" + lines.substr(6);
+        within += (within.empty() ? "within bounds: " : "; ") + result.name + ' ' + result.value;
+    lines += in_lines(lines.empty() ? "Checks" : "", within);
+    return boost::algorithm::trim_right_copy(lines);
+  }
+
+
+  std::string verdict_table(const std::vector<CheckResult> &results)
+  {
+    const auto quoted = [](const std::string &text) {
+      return '"' + boost::algorithm::replace_all_copy(text, "\"", "\"\"") + '"';
+    };
+    std::string table = "check,value,bound,class,is_exceeded,place,remedy\n";
+    for (const CheckResult &result : results)
+      {
+        const std::string finding = result.bound.empty()               ? "information"
+                                    : result.finding == Finding::fault ? "fault"
+                                                                       : "resolution";
+        for (const std::string &text : { result.name, result.value, result.bound, finding })
+          table += quoted(text) + ',';
+        table += (result.is_exceeded ? "1," : "0,") + quoted(result.where) + ',' +
+                 quoted(result.is_exceeded ? result.remedy : "") + '\n';
+      }
+    return table;
   }
 
 

@@ -27,7 +27,7 @@ namespace scree
             };
         remove_files("solution", "", { ".vtu", ".pvtu", ".pvd" });
         remove_files("maps", "", { ".asc", ".prj", ".tif", ".csv" });
-        for (const std::string name : { "statistics", "statistics.csv" })
+        for (const std::string name : { "statistics", "statistics.csv", "checks.csv" })
           std::filesystem::remove(file(name));
         remove_files(".", "probe_", { "", ".csv" });
         std::filesystem::remove_all(file("checkpoint"));

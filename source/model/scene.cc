@@ -179,8 +179,7 @@ namespace scree
         const PropertyLayout<dim> layout(material->internal_quantities.size(),
                                          affine,
                                          water_rides ? WaterLayout<dim>(0, affine).n_properties() : 0,
-                                         parameters.damps_skeleton(),
-                                         parameters.keeps_places());
+                                         parameters.damps_skeleton());
         bodies.emplace_back(body.name,
                             body.bulk_density(),
                             body.seeding.grain_density,
@@ -551,8 +550,7 @@ namespace scree
           const double volume       = inflow.places()[entrant.number].volume;
           properties[layout.mass]   = body.density * volume;
           properties[layout.volume] = volume;
-          if (layout.has_start)
-            std::copy_n(&entrant.location[0], dim, properties.begin() + layout.start);
+          std::copy_n(&entrant.location[0], dim, properties.begin() + layout.start);
           double *variables = properties.data() + layout.internal_variables;
           double *strain    = properties.data() + layout.left_cauchy_green;
           if (of_place)
@@ -889,10 +887,9 @@ namespace scree
   void Scene<dim>::mark_start()
   {
     for (auto &body : bodies)
-      if (body.layout.has_start)
-        for_each_point(body.points, [&](const auto &point) {
-          std::copy_n(&point.location[0], dim, point.properties + body.layout.start);
-        });
+      for_each_point(body.points, [&](const auto &point) {
+        std::copy_n(&point.location[0], dim, point.properties + body.layout.start);
+      });
   }
 
   template class Scene<2>;

@@ -16,27 +16,58 @@ namespace scree
     /// What is said of a check, with numbers of its Suspect in place of FOUND and VALUE.
     struct Words
     {
-      double bound;     // of a sound run; doc/output.md derives those of volume and stress
-      const char *text, // of any run
-          *fault;       // of the point, where the bound is exceeded
+      double bound;                     // of a sound run; doc/output.md derives those of volume and stress
+      const char *name, *value,         // of any run
+          *fault,                       // of the point, where the bound is exceeded
+          *remedy;                      // then
+      Finding finding = Finding::fault; // then
     };
+    constexpr char move_corner[] =
+        "move the corner, or write \"Wall forces = true\" in subsection Probes if the wall is a "
+        "structure or a plane of symmetry";
     constexpr Words words[] = { // by Check
       { 1.5,
-        "fastest point VALUE times the largest 99.9 % quantile of the speeds",
-        "it moves at FOUND m/s, VALUE times the largest 99.9 % quantile of the speeds so far" },
-      { 0.1, "deepest point FOUND m below the bed", "it is FOUND m below the bed, VALUE of a cell" },
-      { 1. / 0.6, "smallest V/V_0 FOUND", "it is compressed to V/V_0 = FOUND" },
+        "fastest point",
+        "VALUE times the largest 99.9 % quantile of the speeds",
+        "it moves at FOUND m/s",
+        "look at this place in the pictures; halve \"Courant number\"" },
+      { 0.1,
+        "deepest point",
+        "FOUND m below the bed",
+        "it is VALUE of a cell below the bed",
+        "smaller cells, or a smoother bed at this place" },
+      { 1. / 0.6,
+        "smallest V/V_0",
+        "FOUND",
+        "it is compressed by so much",
+        "write a larger Young's modulus, or halve \"Courant number\"" },
       { 1.5,
-        "largest V/V_0 in contact FOUND",
-        "soil in contact has dilated to V/V_0 = FOUND; write a smaller dilation angle, a larger tension cut-off, or a "
-        "law with a critical state" },
+        "largest V/V_0 in contact",
+        "FOUND",
+        "soil in contact has dilated by so much",
+        "write a smaller dilation angle, a larger tension cut-off, or a law with a critical state" },
       { 2.,
-        "largest stress VALUE of rho g H",
-        "p' and the vertical stress reach FOUND Pa, VALUE times rho g H of all the soil" },
+        "largest stress",
+        "VALUE of rho g H",
+        "p' and the vertical stress of 0.1 % of the volume are larger, most at this point",
+        "look at this place in the pictures; halve \"Courant number\", or write a smaller stiffness" },
+      { std::numeric_limits<double>::infinity(), "largest stress of a single point", "VALUE of rho g H", "", "" },
       { 0.,
-        "soil has come FOUND m to a wall of the box",
-        "it has come FOUND m to this wall or up it, which cuts off the run-out: move the corner" },
-      { 0., "points of soil lost FOUND", "FOUND points of soil left the box" }
+        "soil that has come to a wall of the box",
+        "FOUND m",
+        "it has come to this wall or up it, which cuts off the run-out",
+        move_corner },
+      { 0.,
+        "soil that has moved along a wall of the box",
+        "FOUND m",
+        "it stood at this wall and has moved along it, so that the wall cuts off the slide",
+        move_corner,
+        Finding::resolution },
+      { 0.,
+        "points of soil lost",
+        "FOUND",
+        "they left the box",
+        "the run-out is a lower bound: move the corner of the box that the soil has left through" }
     };
 
     /// Normal stress, Pa, tension positive, on planes with the unit normal `axis`.
@@ -119,8 +150,9 @@ namespace scree
     for (unsigned int c = 0; c < n_checks && !of_ranks.empty(); ++c)
       if (!is_told[c] && worst[c].value > words[c].bound)
         {
-          is_told[c] = true;
-          folder.log("Check: " + result(c).where + ".");
+          is_told[c]              = true;
+          const CheckResult found = result(c);
+          folder.log("Check: " + found.name + ' ' + found.value + "; " + found.where + ".");
         }
     has_looked = true;
     return true;
@@ -152,7 +184,7 @@ namespace scree
     if (!(largest > fall))
       return;
     if (!std::isinf(largest))
-      usual = std::max(usual, percentiles(speeds, 0., largest * (1. + 1e-9), { 0.999 }, grid.communicator())[0]);
+      usual = std::max(usual, percentile(speeds, 0.999, grid.communicator()));
     auto found = speeds.begin();
     for_each_named(phases, [&](const auto &, const auto &, const auto &name) {
       if (found->place > std::max(usual, fall))
@@ -183,6 +215,7 @@ namespace scree
         suspect(depth, -distance / grid.cell_size(), -distance, name);
     };
     for_each_named(water, look_at_depth);
+    std::vector<PartOfMass> stresses; // over rho g H, and volumes
     for_each_named(bodies, [&](const auto &body, const auto &point, const auto &name) {
       const double ratio  = body.density * point.properties[body.layout.volume] / point.properties[body.layout.mass];
       const double *sigma = point.properties + body.layout.stress;
@@ -190,9 +223,17 @@ namespace scree
       const double both = std::min(mean_effective_stress(sigma), g > 0. ? -along(gravity / g, sigma) : 0.);
       suspect(shrinkage, 1. / ratio, ratio, name);
       if (g > 0.)
-        suspect(stress, both / (body.density * g * height), both, name);
+        {
+          stresses.push_back({ both / (body.density * g * height), point.properties[body.layout.volume] });
+          suspect(peak, stresses.back().place, both, name);
+        }
       look_at_depth(body, point, name);
     });
+    // Impacts of single points raise their stress by rho c v.
+    const double quantile = percentile(stresses, 0.999, grid.communicator());
+    const double of_ranks = Utilities::MPI::max(now[peak].value, grid.communicator());
+    if (now[peak].value == of_ranks)
+      suspect(stress, quantile, quantile, [this] { return now[peak].point; });
     for (const SoilBody<dim> &body : bodies)
       if (!body.is_rigid)
         look_at_dilation(body);
@@ -208,45 +249,25 @@ namespace scree
     for (unsigned int a = 0; a < dim; ++a)
       if (std::abs(gravity[a]) > std::abs(gravity[upward]))
         upward = a;
-    const double h          = grid.cell_size();
-    const Tensor<1, dim> up = -gravity / gravity.norm();
-    const auto height_of    = [&](const Point<dim> &place) { return up * (place - Point<dim>()); };
-    const auto place_of     = [&](const unsigned int face) {
-      return (face % 2 == 0 ? grid.lower_corner() : grid.upper_corner())[face / 2];
-    };
-    const auto for_each_pair = [&](const auto &act) { // of a point and a side wall
-      for_each_named(bodies, [&](const auto &, const auto &point, const auto &name) {
+    const double h = grid.cell_size();
+    for_each_named(bodies, [&](const auto &body, const auto &point, const auto &name) {
+      const Tensor<1, dim> start = vector_of<dim>(point.properties + body.layout.start);
+      const Tensor<1, dim> way   = point.location - Point<dim>(start);
+      if (way.norm() > h)
         for (unsigned int face = 0; face < 2 * dim; ++face)
           if (face / 2 != upward && !walls->is_open(face))
-            act(point.location, face, std::abs(point.location[face / 2] - place_of(face)), name);
-      });
-    };
-    if (!has_looked)
-      {
-        for (unsigned int face = 0; face < 2 * dim; ++face)
-          front_at_start[face] = (grid.upper_corner() - grid.lower_corner())[face / 2];
-        top_at_start.fill(std::numeric_limits<double>::lowest());
-        for_each_pair([&](const Point<dim> &place, const unsigned int face, const double distance, const auto &) {
-          front_at_start[face] = std::min(front_at_start[face], distance);
-          if (distance < h)
-            top_at_start[face] = std::max(top_at_start[face], height_of(place));
-        });
-        for (double &front : front_at_start)
-          front = Utilities::MPI::min(front, grid.communicator());
-        for (double &top : top_at_start)
-          top = Utilities::MPI::max(top, grid.communicator());
-      }
-    // Soil that stands at a wall at the start may slide down along it: only its way up shows that the wall stops it.
-    for_each_pair([&](const Point<dim> &place, const unsigned int face, const double distance, const auto &name) {
-      if (distance >= h)
-        return;
-      const double way =
-          front_at_start[face] < h ? height_of(place) - top_at_start[face] : front_at_start[face] - distance;
-      if (way > h)
-        suspect(wall, way, way, [&] {
-          return name() + ", at the wall " + "xyz"[face / 2] + " = " + coordinate_text(place_of(face)) + " m (\"" +
-                 (face % 2 == 0 ? "Lower" : "Upper") + " corner\")";
-        });
+            {
+              const double place    = (face % 2 == 0 ? grid.lower_corner() : grid.upper_corner())[face / 2];
+              const double distance = std::abs(point.location[face / 2] - place);
+              const double before   = std::abs(start[face / 2] - place);
+              const bool has_come   = before - distance > h;
+              // Soil that stands at a wall slides down along it; that it goes up shows that the wall stops it.
+              const bool is_stopped = has_come || -(gravity * way) > h * gravity.norm();
+              if (distance < h && (has_come || (before < h && inflow_faces.count(face) == 0)))
+                suspect(is_stopped ? wall : slide, way.norm(), way.norm(), [&] {
+                  return name() + ", at " + wall_text(grid, face);
+                });
+            }
     });
   }
 
@@ -277,20 +298,27 @@ namespace scree
     const Suspect &at     = worst[check];
     const double bound    = words[check].bound;
     const bool has_weight = has_soil && gravity.norm() > 0.;
-    const bool applies[] = { true, bed != nullptr, has_soil, at.value > 1., has_weight, has_weight && walls, has_soil };
+    const bool has_walls  = has_weight && walls;
+    const bool applies[]  = { true,       bed != nullptr, has_soil,  at.value > 1., has_weight,
+                              has_weight, has_walls,      has_walls, has_soil };
+    if (!applies[check])
+      return {};
     const std::string found = short_text(check == shrinkage && at.value <= 0. ? 1. : at.found),
                       value = short_text(check == speed ? std::max(1., at.value) : at.value);
     const auto in_words     = [&](const std::string &text) {
       using boost::algorithm::replace_all_copy;
       return replace_all_copy(replace_all_copy(text, "FOUND", found), "VALUE", value);
     };
-    CheckResult result{ applies[check] ? in_words(words[check].text) : "",
-                        check == depth ? short_text(bound * grid.cell_size()) + " m"
-                                       : short_text(check == shrinkage ? 1. / bound : bound),
-                        at.value > bound };
+    const Words &of_check = words[check];
+    CheckResult result{
+      of_check.name, in_words(of_check.value), "", at.value > bound, of_check.remedy, of_check.finding
+    };
+    if (!std::isinf(bound))
+      result.bound = check == depth ? short_text(bound * grid.cell_size()) + " m"
+                                    : short_text(check == shrinkage ? 1. / bound : bound);
     if (result.is_exceeded)
       result.where =
-          at.point + (check == lost ? "" : ", ") + "t = " + short_text(at.time) + " s: " + in_words(words[check].fault);
+          at.point + (at.point.empty() ? "" : ", ") + "t = " + short_text(at.time) + " s: " + in_words(of_check.fault);
     return result;
   }
 
@@ -299,8 +327,8 @@ namespace scree
   std::vector<CheckResult> RunChecks<dim>::results() const
   {
     std::vector<CheckResult> list;
-    for (const Check check : { depth, lost, wall, speed, shrinkage, dilation, stress })
-      if (const CheckResult found = result(check); has_looked && !found.text.empty())
+    for (const Check check : { depth, lost, wall, slide, speed, shrinkage, dilation, stress, peak })
+      if (const CheckResult found = result(check); has_looked && !found.name.empty())
         list.push_back(found);
     return list;
   }
@@ -408,35 +436,41 @@ namespace scree
     if (!has_start)
       return list;
     const auto add = [&](const std::string &name, const double error, const double bound, const double time) {
-      const std::string at = error > bound ? ", t = " + short_text(time) + " s" : "";
-      list.push_back({ name + short_text(error) + at, short_text(bound), error > bound });
+      list.push_back({ name,
+                       short_text(error) + (error > bound ? ", t = " + short_text(time) + " s" : ""),
+                       short_text(bound),
+                       error > bound,
+                       "report the case as a fault of Scree: no entry should do this" });
     };
-    add("mass balance ", mass_error, bound_of_mass, mass_time);
+    add("mass balance", mass_error, bound_of_mass, mass_time);
     if (momentum_scale > 0.)
-      add("momentum balance ", momentum_residual / momentum_scale, bound_of_momentum, momentum_time);
+      add("momentum balance", momentum_residual / momentum_scale, bound_of_momentum, momentum_time);
     if (const double released = released_energy(); energy_is_closed && released > 0.)
       {
         const auto add_gain = [&](const std::string &name, const double found, const double time) {
-          list.push_back({ name + short_text(100. * found / released) + " %" +
-                               (found > 0. ? ", t = " + short_text(time) + " s" : ""),
-                           short_text(100. * bound_of_gain) + " %",
-                           found > bound_of_gain * released });
+          list.push_back(
+              { name,
+                short_text(100. * found / released) + " %" + (found > 0. ? ", t = " + short_text(time) + " s" : ""),
+                short_text(100. * bound_of_gain) + " %",
+                found > bound_of_gain * released,
+                "use the default transfer and F-bar, and halve \"Courant number\"" });
         };
-        add_gain("largest energy gain ", gain, gain_time);
+        add_gain("largest energy gain", gain, gain_time);
         if (channel_gain > 0.)
-          add_gain("largest energy gain of " + worst_channel + ' ', channel_gain, channel_time);
+          add_gain("largest energy gain of " + worst_channel, channel_gain, channel_time);
         list.push_back(
-            { "numerical dissipation " + short_text(100. * dissipation / released) + " % of the released energy", "" });
+            { "numerical dissipation", short_text(100. * dissipation / released) + " % of the released energy" });
       }
     const double waited = std::abs(work * (last_time - start_time) - work_in_time), share = motion / waited; // J s, -
     if (mass_scaling > 1. && (!(std::abs(work) > least_energy()) || waited == 0.))
-      list.push_back({ "kinetic energy with \"Mass scaling\" not judged: hardly any work", "" });
+      list.push_back({ "mean kinetic energy", "with \"Mass scaling\" not judged: hardly any work" });
     else if (mass_scaling > 1.)
-      list.push_back({ "mean kinetic energy " + short_text(100. * share) + " % of the work, with masses times " +
-                           short_text(mass_scaling) + "; " + short_text(100. * share / mass_scaling) +
-                           " % with true ones",
-                       short_text(100. * bound_of_motion) + " %, else \"Mass scaling\" is too large",
-                       !(share <= bound_of_motion) });
+      list.push_back({ "mean kinetic energy",
+                       short_text(100. * share) + " % of the work, with masses times " + short_text(mass_scaling) +
+                           "; " + short_text(100. * share / mass_scaling) + " % with true ones",
+                       short_text(100. * bound_of_motion) + " %",
+                       !(share <= bound_of_motion),
+                       "\"Mass scaling\" is too large" });
     return list;
   }
 

@@ -257,9 +257,7 @@ namespace scree
           output.add("seepage_velocity", "m/s", output.vector);
         }
       output.add("id", "-");
-      const bool has_displacement = !bodies.empty() && bodies.front().layout.has_start;
-      if (has_displacement)
-        output.add("displacement", "m", output.vector);
+      output.add("displacement", "m", output.vector);
       const auto rows_of_laws = add_law_fields(output, bodies);
       std::vector<double> values_of_law;
 
@@ -288,8 +286,7 @@ namespace scree
                     output.put(n * relative_velocity_at(x, grid, cell.cell, field, view->field));
                   }
                 output.put(static_cast<double>(*id++));
-                if (has_displacement)
-                  output.put(point.location - Point<dim>(vector_of<dim>(properties + body.layout.start)));
+                output.put(point.location - Point<dim>(vector_of<dim>(properties + body.layout.start)));
                 put_law_fields(output, body, properties, rows_of_laws[number], values_of_law);
               });
             }

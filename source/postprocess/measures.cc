@@ -243,24 +243,19 @@ namespace scree
       }
     Utilities::MPI::sum(thickness, grid.communicator(), thickness);
 
-    // Where, in cells from the centre of column i of a row, the thickness has fallen to the threshold at column j.
-    const auto way = [&](const double *row, const int i, const int j) {
-      return j < 0 || j >= n[0] ? 0.5 : (row[i] - threshold) / (row[i] - row[j]);
-    };
-    double first = std::numeric_limits<double>::infinity(), last = -first;
+    double first = std::numeric_limits<double>::infinity(), last = -first; // in cells
     for (int r = 0; r < n_rows; ++r)
-      {
-        const double *row = thickness.data() + r * n[0];
-        for (int i = 0; i < n[0]; ++i)
-          if (row[i] >= threshold)
+      for (int i = -1; i < n[0]; ++i) // between columns i and i + 1
+        {
+          const double *row = thickness.data() + r * n[0];
+          const bool left = i >= 0 && row[i] >= threshold, right = i + 1 < n[0] && row[i + 1] >= threshold;
+          const bool at_edge = i < 0 || i + 1 == n[0];
+          if (const double part = at_edge ? 0.5 : (row[i] - threshold) / (row[i] - row[i + 1]); left != right)
             {
-              const bool begins = i == 0 || row[i - 1] < threshold, ends = i + 1 == n[0] || row[i + 1] < threshold;
-              if (begins)
-                first = std::min(first, i + 0.5 - way(row, i, i - 1));
-              if (ends)
-                last = std::max(last, i + 0.5 + way(row, i, i + 1));
+              first = std::min(first, i + 0.5 + part);
+              last  = std::max(last, i + 0.5 + part);
             }
-      }
+        }
     if (last < first)
       return { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN() };
     return { grid.lower_corner()[0] + first * grid.cell_size(), grid.lower_corner()[0] + last * grid.cell_size() };
@@ -423,155 +418,91 @@ namespace scree
     }
 
 
-    /// The places of a cell and its neighbours, in the order in which they are added up: axis by axis from the cell.
+    /// 1 and x, in cells from the lower corner.
     template <int dim>
-    std::array<CellPlace<dim>, Utilities::pow(3, dim)> places_around(const CellPlace<dim> &cell)
+    Tensor<1, dim + 1> monomials_at(const Point<dim> &x, const BackgroundGrid<dim> &grid)
     {
-      std::array<CellPlace<dim>, Utilities::pow(3, dim)> places{ { cell } };
-      for (unsigned int a = 0, n = 1; a < dim; ++a, n *= 3)
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            places[n + 2 * i] = places[n + 2 * i + 1] = places[i];
-            --places[n + 2 * i][a];
-            ++places[n + 2 * i + 1][a];
-          }
-      return places;
+      Tensor<1, dim + 1> monomials;
+      monomials[0] = 1.;
+      for (unsigned int a = 0; a < dim; ++a)
+        monomials[a + 1] = (x[a] - grid.lower_corner()[a]) / grid.cell_size();
+      return monomials;
     }
 
 
-    /// The points of a rank, and the moments of the cells that hold some.
-    template <int dim>
-    class PressureField
+    /// Root mean square of what is left of the pressure after the linear fits around the points' cells, over its mean.
+    /// Collective.
+    /// @param for_each_set calls its argument with each set of points and a function of properties that is P or p, Pa
+    template <int dim, typename ForEachSet>
+    double oscillation(const BackgroundGrid<dim> &grid, const ForEachSet &for_each_set)
     {
-    public:
-      explicit PressureField(const BackgroundGrid<dim> &grid)
-          : grid(grid)
-          , entry_of_cell(grid.triangulation().n_active_cells(), none)
-      {
-      }
-
-      /// @param slot where a point's quantity begins among its properties
-      /// @param pressure_of P or p, Pa, from the quantity
-      template <typename Pressure>
-      void add(const PointSet<dim> &points, const unsigned int slot, const Pressure &pressure_of)
-      {
-        for (const auto &cell : points.cells())
-          {
-            const unsigned int entry = entry_of(cell.cell);
-            for_each_point(cell, [&](const auto &point) {
-              Tensor<1, dim + 1> monomials;
-              monomials[0] = 1.;
-              for (unsigned int a = 0; a < dim; ++a)
-                monomials[a + 1] = (point.location[a] - grid.lower_corner()[a]) / grid.cell_size();
-              samples.push_back({ monomials, pressure_of(point.properties + slot), entry });
-              moments[entry].matrix += outer_product(monomials, monomials);
-              moments[entry].rhs += samples.back().pressure * monomials;
-            });
-          }
-      }
-
-      /// Root mean square of what is left of the pressure after the linear fits around the points' cells, over its
-      /// mean. Collective.
-      double oscillation()
-      {
-        const unsigned int n_owned = moments.size();
-        if (const MPI_Comm communicator = grid.communicator(); Utilities::MPI::n_mpi_processes(communicator) > 1)
-          add_ghosts();
-        const std::vector<Tensor<1, dim + 1>> fits = fits_around(n_owned);
-        std::vector<double> sums{ 0, 0, 0 }; // points, pressure, squared residual
-        for (const Sample &sample : samples)
-          {
-            const double residual = sample.pressure - fits[sample.entry] * sample.monomials;
-            sums[0] += 1;
-            sums[1] += sample.pressure;
-            sums[2] += residual * residual;
-          }
-        Utilities::MPI::sum(sums, grid.communicator(), sums);
-        return sums[1] > 0 ? std::sqrt(sums[2] / sums[0]) / (sums[1] / sums[0]) : 0.;
-      }
-
-    private:
-      static constexpr unsigned int none = numbers::invalid_unsigned_int;
-
-      struct Sample
-      {
-        Tensor<1, dim + 1> monomials; // 1 and x, in cells from the lower corner
-        double pressure;
-        unsigned int entry;
-      };
-
-      unsigned int entry_of(const unsigned int cell)
-      {
-        unsigned int &entry = entry_of_cell[cell];
-        if (entry == none)
-          {
-            entry = moments.size();
-            moments.emplace_back();
-            cells.push_back(cell);
-          }
-        return entry;
-      }
-
-      void add_ghosts()
-      {
-        using Cell     = typename Triangulation<dim>::active_cell_iterator;
-        using Optional = std::optional<Moments<dim>>;
+      std::vector<Moments<dim>> moments(grid.triangulation().n_active_cells());
+      for_each_set([&](const PointSet<dim> &points, const auto &pressure_of) {
+        for_each_point(points, [&](const auto &point) {
+          const Tensor<1, dim + 1> monomials = monomials_at(point.location, grid);
+          moments[point.cell].matrix += outer_product(monomials, monomials);
+          moments[point.cell].rhs += pressure_of(point.properties) * monomials;
+        });
+      });
+      if (Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
         GridTools::exchange_cell_data_to_ghosts<Moments<dim>, parallel::distributed::Triangulation<dim>>(
             grid.triangulation(),
-            [&](const Cell &cell) {
-              const unsigned int entry = entry_of_cell[cell->active_cell_index()];
-              return entry == none ? Optional() : Optional(moments[entry]);
-            },
-            [&](const Cell &cell, const Moments<dim> &value) { moments[entry_of(cell->active_cell_index())] = value; });
-      }
+            [&](const auto &cell) { return std::make_optional(moments[cell->active_cell_index()]); },
+            [&](const auto &cell, const Moments<dim> &value) { moments[cell->active_cell_index()] = value; });
 
-      /// The fits to the points of the first cells and of their neighbours.
-      std::vector<Tensor<1, dim + 1>> fits_around(const unsigned int n_owned) const
-      {
-        const FineCells<dim> &fine = grid.fine_cells();
-        std::vector<Tensor<1, dim + 1>> fits;
-        for (unsigned int entry = 0; entry < n_owned; ++entry)
+      const FineCells<dim> &fine = grid.fine_cells();
+      std::vector<double> sums{ 0, 0, 0 }; // points, pressure, squared residual
+      for_each_set([&](const PointSet<dim> &points, const auto &pressure_of) {
+        for (const auto &cell : points.cells())
           {
-            Moments<dim> sum;
-            for (const CellPlace<dim> &place : places_around<dim>(fine.cells()[fine.of_index(cells[entry])].place))
-              if (const unsigned int cell = fine.find(place); cell != FineCells<dim>::none)
-                if (const unsigned int near = entry_of_cell[fine.cells()[cell].index]; near != none)
+            Moments<dim> around;
+            for (unsigned int i = 0; i < Utilities::pow(3u, dim); ++i)
+              {
+                CellPlace<dim> place = fine.cells()[fine.of_index(cell.cell)].place;
+                for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= 3)
+                  place[a] += static_cast<int>(rest % 3) - 1;
+                if (const unsigned int near = fine.find(place); near != FineCells<dim>::none)
                   {
-                    sum.matrix += moments[near].matrix;
-                    sum.rhs += moments[near].rhs;
+                    around.matrix += moments[fine.cells()[near].index].matrix;
+                    around.rhs += moments[fine.cells()[near].index].rhs;
                   }
-            fits.push_back(fit(sum));
+              }
+            if (around.matrix[0][0] == 0.)
+              continue;
+            const Tensor<1, dim + 1> coefficients = fit(around);
+            for_each_point(cell, [&](const auto &point) {
+              const double pressure = pressure_of(point.properties);
+              const double residual = pressure - coefficients * monomials_at(point.location, grid);
+              sums                  = { sums[0] + 1, sums[1] + pressure, sums[2] + residual * residual };
+            });
           }
-        return fits;
-      }
-
-      const BackgroundGrid<dim> &grid;
-      std::vector<unsigned int> entry_of_cell; // among those with points, by active cell index
-      std::vector<unsigned int> cells;         // active cell index by entry; those of this rank first
-      std::vector<Moments<dim>> moments;       // by entry
-      std::vector<Sample> samples;
-    };
+      });
+      Utilities::MPI::sum(sums, grid.communicator(), sums);
+      return sums[1] > 0 ? std::sqrt(sums[2] / sums[0]) / (sums[1] / sums[0]) : 0.;
+    }
   } // namespace
 
 
   template <int dim>
   double stress_oscillation(const std::list<SoilBody<dim>> &bodies, const BackgroundGrid<dim> &grid)
   {
-    PressureField<dim> field(grid);
-    for (const auto &body : bodies)
-      if (!body.is_rigid)
-        field.add(body.points, body.layout.stress, [](const double *stress) { return mean_effective_stress(stress); });
-    return field.oscillation();
+    return oscillation(grid, [&](const auto &act) {
+      for (const auto &body : bodies)
+        if (!body.is_rigid)
+          act(body.points, [slot = body.layout.stress](const double *properties) {
+            return mean_effective_stress(properties + slot);
+          });
+    });
   }
 
 
   template <int dim>
   double pressure_oscillation(const std::list<WaterPhase<dim>> &water, const BackgroundGrid<dim> &grid)
   {
-    PressureField<dim> field(grid);
-    for (const auto &one : water)
-      field.add(one.points(), one.layout.pressure, [](const double *pressure) { return *pressure; });
-    return field.oscillation();
+    return oscillation(grid, [&](const auto &act) {
+      for (const auto &one : water)
+        act(one.points(), [slot = one.layout.pressure](const double *properties) { return properties[slot]; });
+    });
   }
 
   template decltype(stress_oscillation<2>) stress_oscillation<2>;

@@ -223,15 +223,11 @@ namespace scree
                       Patterns::Double(0));
     prm.add_parameter(
         "Wall forces", wall_forces, "true: the force on each face of the box is written with each row of statistics.");
-    prm.add_parameter("Displacement",
-                      displacement,
-                      "true: the graphics output has the displacement of the soil points since the start. It is always "
-                      "there if the soil settles.");
     prm.leave_subsection();
   }
 
 
-  void ProbeParameters::check(const GridParameters &grid, const unsigned int dim, const bool has_soil) const
+  void ProbeParameters::check(const GridParameters &grid, const unsigned int dim) const
   {
     std::set<std::string> names{ "front", "walls" };
     for (const PlaceEntry &kind : place_entries)
@@ -254,9 +250,6 @@ namespace scree
                         "both ends of " + quoted(place.name) +
                             " are the same. Move one, or write it among the \"Places\".");
         }
-    require_entry(has_soil || !displacement,
-                  { subsection, "Displacement", "true" },
-                  "this entry has no effect, as there is no soil: entry \"Bodies\" is none. Remove it.");
   }
 
 

@@ -8,178 +8,6 @@ namespace scree
 {
   using namespace dealii;
 
-  namespace
-  {
-    constexpr double rest_part     = 1e-3; // of sqrt(g h): soil at rest takes more than 1000 sqrt(h/g) for a cell
-    constexpr double flow_part     = 0.1;  // of sqrt(g h): oscillations of soil at rest are slower
-    constexpr double part_at_rest  = 0.99; // of the mass
-    constexpr double least_change  = 0.1;  // of the cell size: less is no loss or deposit of a column
-    constexpr double part_of_path  = 0.99; // of the deposit
-    constexpr double steepest_wall = 0.5;  // cosine of the slope: steeper ground is a wall beside the soil
-
-    /// Length normal to the ground over that along the last axis.
-    template <int dim, typename PointOfSet>
-    double cosine_of_ground(const DiscreteLevelSet<dim> *bed, const PointOfSet &point)
-    {
-      if (bed == nullptr || !bed->is_near(point.cell))
-        return 1.;
-      const double cosine = std::abs(bed->view(point.cell, point.reference_location).normal[dim - 1]);
-      return cosine > steepest_wall ? cosine : 1.;
-    }
-
-
-    /// The value that half of the sum of all values exceeds; 0 if there are none.
-    double median_by_volume(std::vector<double> values)
-    {
-      std::sort(values.begin(), values.end());
-      double all = 0., below = 0.;
-      for (const double value : values)
-        all += value;
-      for (const double value : values)
-        if ((below += value) >= 0.5 * all)
-          return value;
-      return 0.;
-    }
-  } // namespace
-
-
-  template <int dim>
-  double SoilMotion<dim>::rest_speed() const
-  {
-    return rest_part * std::sqrt(gravity.norm() * grid.cell_size());
-  }
-
-
-  template <int dim>
-  MotionNumbers SoilMotion<dim>::look(const std::list<SoilBody<dim>> &bodies, const double time)
-  {
-    const std::size_t n = columns.size();
-    std::vector<double> sums(3 * n + 3, 0.); // thickness, its moment, moving; mass, moving mass, kinetic energy
-    std::vector<PartOfMass> speeds;
-    const bool is_start = start_thickness.empty();
-    const auto include  = [&](const SoilBody<dim> &body, const auto &point) {
-      const double mass    = point.properties[body.layout.mass];
-      const double speed   = vector_of<dim>(point.properties + body.layout.velocity).norm();
-      const double share   = point.properties[body.layout.volume] / columns.area();
-      const bool is_moving = speed > rest_speed();
-      const double moving =
-          is_start || speed > flow_part / rest_part * rest_speed() ? share * cosine_of_ground(bed, point) : 0.;
-      for (const auto &[column, weight] : columns.around(point.location))
-        {
-          sums[column] += weight * share;
-          sums[n + column] += weight * share * point.location[dim - 1];
-          sums[2 * n + column] += weight * moving;
-        }
-      sums[3 * n] += mass;
-      sums[3 * n + 1] += is_moving ? mass : 0.;
-      sums[3 * n + 2] += 0.5 * mass * speed * speed;
-      speeds.push_back({ speed, mass });
-    };
-    for_each_moving_point(bodies, include);
-    Utilities::MPI::sum(sums, grid.communicator(), sums);
-
-    has_soil         = sums[3 * n] > 0.;
-    last_time        = time;
-    last.moving_part = has_soil ? sums[3 * n + 1] / sums[3 * n] : 0.;
-    last.speed       = percentile(speeds, part_at_rest, grid.communicator());
-    last.thickness   = median_by_volume({ sums.begin() + 2 * n, sums.begin() + 3 * n }) / grid.cell_size();
-    if (last.speed > flow_part / rest_part * rest_speed() && sums[3 * n + 2] > largest_kinetic)
-      {
-        largest_kinetic = sums[3 * n + 2];
-        thickness_then  = last.thickness;
-      }
-    std::vector<double> thickness(sums.begin(), sums.begin() + n), height(n);
-    for (std::size_t c = 0; c < n; ++c) // of the surface, if the soil is in one layer
-      height[c] = thickness[c] > 0. ? sums[n + c] / thickness[c] + 0.5 * thickness[c] : 0.;
-    if (is_start)
-      {
-        start_thickness = thickness;
-        start_height    = height;
-      }
-    find_path(thickness, height);
-    return last;
-  }
-
-
-  template <int dim>
-  void SoilMotion<dim>::find_path(const std::vector<double> &thickness, const std::vector<double> &height)
-  {
-    const Tensor<1, dim> up = gravity.norm() > 0. ? -gravity / gravity.norm() : Tensor<1, dim>();
-    const double least      = least_change * grid.cell_size();
-    const auto surface      = [&](const std::size_t column, const std::vector<double> &heights) {
-      Point<dim> x = columns.middle(column);
-      x[dim - 1]   = heights[column];
-      return x;
-    };
-    struct Gain
-    {
-      double distance, volume, fall; // m, m^3, m
-    };
-    std::vector<Gain> gains;
-    std::optional<Point<dim>> top;
-    for (std::size_t c = 0; c < thickness.size(); ++c)
-      if (start_thickness[c] - thickness[c] > least)
-        if (const Point<dim> x = surface(c, start_height); !top || up * (x - *top) > 0.)
-          top = x;
-    last.area = last.volume = last.length = last.fall = last.travel_angle = 0.;
-    for (std::size_t c = 0; c < thickness.size(); ++c)
-      if (const double gain = thickness[c] - start_thickness[c]; gain > least)
-        {
-          const Tensor<1, dim> path = surface(c, height) - top.value_or(Point<dim>());
-          gains.push_back({ (path - (path * up) * up).norm(), gain * columns.area(), -(path * up) });
-          last.area += columns.area();
-          last.volume += gain * columns.area();
-        }
-    if (!top || gains.empty())
-      return;
-    std::sort(gains.begin(), gains.end(), [](const Gain &a, const Gain &b) { return a.distance < b.distance; });
-    double below = 0.;
-    auto toe     = gains.begin();
-    while (toe + 1 < gains.end() && below + toe->volume < part_of_path * last.volume)
-      below += (toe++)->volume;
-    const double part = (part_of_path * last.volume - below) / toe->volume; // of this column
-    last.length       = std::max(0., toe->distance + (std::min(part, 1.) - 0.5) * grid.cell_size());
-    last.fall         = toe->fall;
-    last.travel_angle = std::atan2(last.fall, last.length) * 180. / numbers::PI;
-  }
-
-
-  template <int dim>
-  std::vector<CheckResult> SoilMotion<dim>::results() const
-  {
-    if (largest_kinetic == 0. || gravity.norm() == 0.)
-      return {};
-    return { { "thickness of the moving soil " + short_text(thickness_then) + " cells",
-               "at least " + short_text(least_cells) + ": cells of at most " +
-                   short_text(thickness_then * grid.cell_size() / least_cells) + " m",
-               thickness_then < least_cells } };
-  }
-
-
-  template <int dim>
-  std::string SoilMotion<dim>::text() const
-  {
-    if (!has_soil || gravity.norm() == 0.)
-      return "";
-    const bool is_at_rest = last.moving_part <= 1. - part_at_rest;
-    std::string lines     = std::string("Motion      ") + (is_at_rest ? "at rest" : "not at rest") +
-                        " at the end, t = " + short_text(last_time) + " s: " + short_text(100. * last.moving_part) +
-                        " % of the mass is faster than " + short_text(rest_speed()) +
-                        " m/s\n            (0.001 sqrt(g h)), and 1 % of it faster than " + short_text(last.speed) +
-                        " m/s";
-    if (last.length > 0.)
-      lines += std::string("\nRun-out     ") + (is_at_rest ? "" : "so far: ") + "H = " + short_text(last.fall) +
-               " m, L = " + short_text(last.length) + " m, H/L = " + short_text(last.fall / last.length) +
-               ", travel angle " + short_text(last.travel_angle) + " degrees;\n            deposit " +
-               short_text(last.area) + (dim == 2 ? " m, " : " m^2, ") + short_text(last.volume) +
-               (dim == 2 ? " m^3/m" : " m^3");
-    return lines;
-  }
-
-  template class SoilMotion<2>;
-  template class SoilMotion<3>;
-
-
   template <int dim>
   std::map<std::string, std::function<void(const Snapshot<dim> &, StatisticsRow &)>> &registered_columns()
   {
@@ -283,11 +111,14 @@ namespace scree
       add_value(row, "Vertices", "", updates.n_vertices);
       add_value(row, "Unresolved", "", updates.n_unresolved);
       add_value(row, "Speed 99 %", "m/s", motion.speed);
-      add_value(row, "Moving part", "-", motion.moving_part);
+      add_value(row, "Mean speed", "m/s", motion.mean_speed);
+      add_value(row, "Toe speed", "m/s", motion.toe_speed);
       add_value(row, "Moving thickness", "cells", motion.thickness);
+      add_value(row, "Toe displacement", "m", motion.toe_displacement);
+      add_value(row, "Largest displacement", "m", motion.largest_displacement);
       add_value(row, "Run-out length", "m", motion.length);
       add_value(row, "Fall height", "m", motion.fall);
-      add_value(row, "Run-out H/L", "-", motion.length > 0. ? motion.fall / motion.length : 0.);
+      add_value(row, "Run-out H/L", "-", motion.ratio);
       add_value(row, "Travel angle", "degrees", motion.travel_angle);
       add_value(row, "Deposit area", "m^2", motion.area);
       add_value(row, "Deposit volume", "m^3", motion.volume);
@@ -383,7 +214,36 @@ namespace scree
         add(now, row);
       return row;
     }
+
+
+    /// What oscillates: column, bound of its mean over time (those of the stability maps), and what to do.
+    struct Oscillation
+    {
+      const char *column;
+      double bound;
+      const char *remedy;
+    };
+    constexpr Oscillation oscillating[] = {
+      { "Stress oscillation",
+        0.2,
+        "do not use single values of p'; write the recommended points per cell, or a smaller \"Courant number\"" },
+      { "p oscillation", 0.1, "do not use single values of p; write the recommended points per cell, or smaller cells" }
+    };
   } // namespace
+
+
+  template <int dim>
+  std::vector<CheckResult> Statistics<dim>::results() const
+  {
+    std::vector<CheckResult> list;
+    for (unsigned int o = 0; o < oscillations.size(); ++o)
+      if (const double mean = oscillations[o] / history.time; mean > 0.)
+        {
+          const auto &[column, bound, remedy] = oscillating[o];
+          list.push_back({ column, short_text(mean), short_text(bound), mean > bound, remedy, Finding::resolution });
+        }
+    return list;
+  }
 
 
   template <int dim>
@@ -395,6 +255,7 @@ namespace scree
                                          const double time_step,
                                          const UpdateReport &last_step)
   {
+    const RunBalance<dim> totals = local.sum_over_ranks(grid.communicator());
     const Snapshot<dim> now{ grid,
                              gravity,
                              further,
@@ -403,8 +264,8 @@ namespace scree
                              history,
                              last_step,
                              PointSums<dim>(bodies, water, gravity, grid),
-                             bodies.empty() ? MotionNumbers() : motion.look(bodies, time),
-                             local.sum_over_ranks(grid.communicator()),
+                             bodies.empty() ? MotionNumbers() : motion.look(bodies, totals.lost_through, time),
+                             totals,
                              time,
                              step,
                              time_step };
@@ -414,7 +275,11 @@ namespace scree
         start = { true, balance.momentum() - now.totals.impulse(), balance.kept_energy(), false };
       }
     history.balance.obstacles.resize(now.totals.balance.obstacles.size());
-    last_row        = row_of(now);
+    last_row = row_of(now);
+    for (const auto &[column, value] : last_row)
+      for (unsigned int o = 0; o < oscillations.size(); ++o)
+        if (column == std::string(oscillating[o].column) + " (-)")
+          oscillations[o] += value * (time - history.time);
     history.step    = step;
     history.time    = time;
     history.balance = now.totals.balance;

@@ -9,24 +9,18 @@ namespace scree
 
   namespace
   {
-    /// Heading of the column of the progress table that says where a scene is, and its value now: the front of the
-    /// soil, or of the water without soil; on a bed in space, where no axis is that of the motion, the largest speed.
-    /// Collective.
+    /// Heading of the column of the progress table that says where a scene is, and its value now: how far the toe of
+    /// the soil has moved, or the speed of water alone. Collective.
     template <int dim>
     std::pair<std::string, double> shown_motion(const Scene<dim> &scene)
     {
-      const std::vector<double> part_behind_front{ 0.90 }; // of the mass
-      if (dim == 2 || !scene.bed)
-        return scene.bodies.empty()
-                   ? std::make_pair("water front 90 % (m)",
-                                    mass_percentiles(scene.water, scene.grid, part_behind_front)[0])
-                   : std::make_pair("front 90 % (m)", mass_percentiles(scene.bodies, scene.grid, part_behind_front)[0]);
-      double largest  = 0.;
-      const auto look = [&](const auto &phase, const auto &point) {
+      if (!scene.bodies.empty())
+        return { "toe moved (m)",
+                 SoilMotion<dim>(scene.grid, scene.forcing.gravity(), nullptr).path(scene.bodies).toe_displacement };
+      double largest = 0.;
+      for_each_moving_point(scene.water, [&](const auto &phase, const auto &point) {
         largest = std::max(largest, vector_of<dim>(point.properties + phase.layout.velocity).norm());
-      };
-      for_each_moving_point(scene.bodies, look);
-      for_each_moving_point(scene.water, look);
+      });
       return { "fastest (m/s)", Utilities::MPI::max(largest, scene.grid.communicator()) };
     }
   } // namespace
@@ -411,7 +405,10 @@ namespace scree
       {
         lose(body.name, body.points.lost(), body.layout, scene.walls, totals.lost_mass);
         for (const LostPoint<dim> &point : body.points.lost())
-          totals.lost_volume += point.properties[body.layout.mass] / body.density;
+          {
+            totals.lost_volume += point.properties[body.layout.mass] / body.density;
+            totals.lost_through[nearest_face(scene.grid, point.location)] += point.properties[body.layout.mass];
+          }
         totals.n_lost += body.points.lost().size();
         body.points.lost().clear();
       }
@@ -610,9 +607,10 @@ namespace scree
         const auto checks = checks_of_settling(ratio);
         for (const CheckResult &check : checks)
           if (check.is_exceeded)
-            folder.log("Check: " + check.text + ", bound " + check.bound + '.');
+            folder.log("Check: " + check.name + ' ' + check.value + ", bound " + check.bound + ": " + check.remedy +
+                       '.');
           else
-            folder.record("Settling: " + check.text);
+            folder.record("Settling: " + check.name + ' ' + check.value);
         results.add_checks(checks);
       }
     // Balances begin at the release; what was lost stays lost.
@@ -620,6 +618,7 @@ namespace scree
     totals                        = RunBalance<dim>(scene.obstacles.size());
     totals.n_lost                 = settled.n_lost;
     totals.lost_mass              = settled.lost_mass;
+    totals.lost_through           = settled.lost_through;
     totals.lost_volume            = settled.lost_volume;
     totals.lost_water_mass        = settled.lost_water_mass;
   }
@@ -634,16 +633,18 @@ namespace scree
     const double moved   = displacement();
     const bool stands    = !(moved > allowed);
     const bool rests     = unbalanced_force < parameters.settling.unbalanced_force;
-    return { { stands ? "displacement while settling " + short_text(moved) + " m"
-                      : "this slope does not stand (moved " + short_text(moved) + " m while settling): see --safety",
+    return { { "displacement while settling",
+               short_text(moved) + " m",
                short_text(allowed) + " m",
-               !stands },
-             { "unbalanced force at the release " + short_text(unbalanced_force) + " of the weight",
+               !stands,
+               "this slope does not stand: see --safety" },
+             { "unbalanced force at the release",
+               short_text(unbalanced_force) + " of the weight",
                short_text(parameters.settling.unbalanced_force),
-               !rests },
-             { "largest plastic shear strain of settling " +
-                   short_text(largest_plastic_strain(scene.bodies, communicator)),
-               "" } };
+               !rests,
+               "write a larger \"Maximum time\" in subsection Settling" },
+             { "largest plastic shear strain of settling",
+               short_text(largest_plastic_strain(scene.bodies, communicator)) } };
   }
 
 

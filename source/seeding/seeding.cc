@@ -467,8 +467,10 @@ namespace scree
                     { body.name, parameters.place().first, parameters.place().second },
                     remedy_for_nothing(lattice.ground != nullptr));
     });
-    for_each_point(body.points,
-                   [&](const auto &point) { std::fill_n(point.properties + body.layout.left_cauchy_green, 3, 1.); });
+    for_each_point(body.points, [&](const auto &point) {
+      std::fill_n(point.properties + body.layout.left_cauchy_green, 3, 1.);
+      std::copy_n(&point.location[0], dim, point.properties + body.layout.start);
+    });
   }
 
 

@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 
+from scree.results import read_table
 from scree.variants import set_entries
 
 from case_tools import HERE, LAUNCHER, SCREE, check, log_of
@@ -80,9 +81,10 @@ def screen():
         check(re.match(rf"Scree [0-9.]+ \((unknown|[0-9a-f]+(-dirty)?)\), {named} +20\d\d-[0-9-]+ [0-9:]+ \w+\nCase        case\.prm -> results\n"
                        r"Model       2D plane strain, dry, AFLIP \(PIC rate auto: [0-9.]+ 1/s\), [1-9]\d* soil points\nMesh        128 cells of 0\.125 m\n"
                        r"Memory      [1-9]\d* MB estimated\n", text), text)
-        require(text, r" +time \(s\) +done +step +dt \(s\) +front 90 % \(m\) +kinetic \(J\) +remaining", row,
+        require(text, r" +time \(s\) +done +step +dt \(s\) +toe moved \(m\) +kinetic \(J\) +remaining", row,
                 r"Finished    wall time [0-9.]+ s, [1-9]\d* steps, \d+ ns per point and step and core", r"Limits      time step limited by wave speed \(100 % of steps\)",
-                r"Checks      within bounds: mass balance [0-9.e-]+; momentum balance [0-9.e-]+;.*",
+                r"Checks      resolution: Stress oscillation 0\.\d+ \(bound 0\.2\); what to do: .*",
+                r" +within bounds: mass balance [0-9.e-]+; momentum balance [0-9.e-]+;.*",
                 r"Results     results/solution/points\.pvd \(ParaView\), statistics, log\.txt")
         check("points of soil lost 0" in text and not re.search(r"deal\.II|points to grid|Soil at", text), text)
         # Numbers end below the ends of their headings.
@@ -96,7 +98,12 @@ def screen():
 
     # Soil that falls out of the box exceeds a bound.
     pathlib.Path("case.prm").write_text(set_entries("", {**case, "End time": 0.5, "Soil/Region": "x > 1 && y < 0.5", "Boundaries/Right": "open"}), encoding="utf-8")
-    require(printed(SCREE, "case.prm"), r"Checks      out of bounds:.*points of soil lost [1-9]\d* \(bound 0\).*", "            within bounds: mass balance.*")
+    text = printed(SCREE, "case.prm")
+    require(text, r"Checks      fault: points of soil lost [1-9]\d* \(bound 0\);.*", "            within bounds: mass balance.*")
+    found = re.search(r'a lower bound: (\S+) % of the soil has left the box, most of it through the wall x = 2 m \("Upper corner"\)', " ".join(text.split()))
+    table = read_table(pathlib.Path("results/statistics"))
+    share = 100 * table["Mass lost (kg)"][-1] / table["Mass (kg)"][0]
+    check(found and abs(float(found[1]) / share - 1) < 0.01, f"{share} % lost: {text}")
 
 
 globals()[sys.argv[3]]()

@@ -20,8 +20,7 @@ DRY = {"End time": 0.12, "Mesh/Upper corner": "1.6, 0.8", "Mesh/Cell size": 0.1,
        "Soil/Region": "x < 0.5 && y < 0.5", "Soil/Points per cell": 4, "Soil/Initial state/Type": "K0", "Soil/Initial state/K0": 0.683,
        "Output/Interval": 0.06, "Output/Statistics interval": 0.01, "Output/Checkpoint interval": 0.055, "Output/Screen": "nothing",
        "Output/Graphics": "points", "Probes/Places": "toe: 0.45, 0.03; far: 1.5, 0.7", "Probes/Lines": "base: 0, 0.02 to 1.6, 0.02; mid: 0.2, 0 to 0.2, 0.8",
-       "Probes/Places a line": 17, "Probes/Verticals": "crest: 0.1", "Probes/Front thickness": 0.05, "Probes/Wall forces": "true",
-       "Probes/Displacement": "true"}
+       "Probes/Places a line": 17, "Probes/Verticals": "crest: 0.1", "Probes/Front thickness": 0.05, "Probes/Wall forces": "true"}
 WATER = {"Water/Region": "x < 0.7 && y < 0.4", "Water/Hydraulic conductivity": 5e-3, "Water/Pressure/Relative tolerance": 1e-12}
 FILES = ["probe_" + name for name in ("toe", "far", "base", "mid", "crest", "front", "walls")]
 

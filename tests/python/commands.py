@@ -117,7 +117,6 @@ def check_plot_element(commands):
 def check_render(commands):
     commands.refuses("^scree-render: .*nowhere", "scree-render", "nowhere")
     commands.refuses("^scree-render: .*No field speed; there are: .*velocity.*\\(points\\).*pressure.*\\(water\\)", "scree-render", "run", "--field", "speed")
-    commands.refuses("^scree-render: No field displacement; there are: .*Displacement = true.*subsection Probes", "scree-render", "run", "--field", "displacement")
     commands.refuses("^scree-render: --times 0,one: write numbers", "scree-render", "run", "--times", "0,one")
     for how in ([], ["--animate", "gif"]):
         commands.refuses("^scree-render: run has no picture at t = 0.0016 s; there are 3, at 0, 0.001, 0.002 s. The next is at 0.002 s", "scree-render", "run",

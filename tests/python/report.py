@@ -4,7 +4,7 @@
 import html.parser
 import pathlib
 
-from scree import report
+from scree import report, results
 
 from test_tools import run_tests
 
@@ -15,18 +15,17 @@ Unusual value: my.prm, line 3: this value is unusual in Pa.
 
     time (s)    done      step     dt (s)     front 90 % (m)    kinetic (J)     remaining
       1.0000   100 %       500   2.79e-04             3.1000           2100           0 s
-Check: Soil, point 3 at (1, 2) m, t = 0.5 s: it is compressed to V/V_0 = 0.5.
+Check: smallest V/V_0 0.5; Soil, point 3 at (1, 2) m, t = 0.5 s: it is compressed by so much.
 
 Finished    wall time 26.2 s, 500 steps
 Limits      time step limited by wave speed (100 % of steps)
 Warning     'Maximum time step' bounds 90 % of the steps.
             Write a larger one.
-Motion      not at rest at the end, t = 1 s: 99.2 % of the mass is faster than 0.00221
-            m/s (0.001 sqrt(g h)), and 1 % of it faster than 30 m/s
-Run-out     so far: H = 87 m, L = 250 m, H/L = 0.348, travel angle 19.2 degrees;
-            deposit 1.2e+03 m^2, 2e+03 m^3
-Checks      out of bounds: smallest V/V_0 0.5 (bound 0.6)
-            worst: Soil, point 3 at (1, 2) m
+Motion      not at rest at the end, t = 1 s: failed soil moves at 3 m/s in the mean, the toe at 30
+            m/s; at rest below 0.02 m/s (0.002 sqrt(g H))
+Run-out     so far: H = 87 m, L = 250 m, H/L = 0.348, travel angle 19.2 degrees; the toe has moved
+            200 m, the fastest soil 210 m; deposit 1.2e+03 m^2, 2e+03 m^3
+Checks      fault: smallest V/V_0 0.5 (bound 0.6); Soil, point 3 at (1, 2) m
             within bounds: mass balance 0; points of soil lost 0
 Results     run
 """
@@ -50,9 +49,18 @@ class Tags(html.parser.HTMLParser):
         assert self.open.pop() == tag, tag
 
 
-def folder(log):
+CHECKS = """check,value,bound,class,is_exceeded,place,remedy
+"mass balance","0","1e-06","fault","0","",""
+"thickness of the moving soil","2 cells","at least 3","resolution","{coarse}","","use cells of ""0.1"" m, or less"
+"smallest V/V_0","0.5","0.6","fault","{fault}","Soil, point 3","write a larger
+Young's modulus"
+"""
+
+
+def folder(log, fault=1, coarse=1):
     run = pathlib.Path("run")
     run.mkdir(exist_ok=True)
+    (run / "checks.csv").write_text(CHECKS.format(fault=fault, coarse=coarse) if "Checks" in log else "", encoding="utf-8")
     (run / "log.txt").write_text(log, encoding="utf-8")
     (run / "original.prm").write_text("# A slope & more.\n# Compare: front.\n\nset End time = 1 # s, <b>\n", encoding="utf-8")
     (run / "parameters.prm").write_text("set End time = 1\nset Bodies = Soil\n", encoding="utf-8")
@@ -62,22 +70,31 @@ def folder(log):
 
 
 def test_log():
-    log = report.read_log(folder(LOG))
-    assert log.parts["Checks"].splitlines()[2] == "within bounds: mass balance 0; points of soil lost 0", log.parts
+    log = results.read_log(folder(LOG))
+    assert log.parts["Checks"].splitlines()[1] == "within bounds: mass balance 0; points of soil lost 0", log.parts
     assert log.parts["Model"] == "2D plane strain, dry, FLIP, 38480 soil points"
-    assert [line[:30] for line in log.warnings] == ["Unusual value: my.prm, line 3:", "Check: Soil, point 3 at (1, 2)", "'Maximum time step' bounds 90 "], log.warnings
+    assert [line[:30] for line in log.warnings] == ["Unusual value: my.prm, line 3:", "Check: smallest V/V_0 0.5; Soi", "'Maximum time step' bounds 90 "], log.warnings
     assert log.warnings[-1].endswith("steps. Write a larger one.")
     identity = dict(report.identity("run", log))
     assert (identity["Commit"], identity["Command"], identity["Start of the run"]) == ("abc1234", "mpirun -np 2 scree my <slope>.prm", "2026-11-25 12:53:12 UTC")
     assert [word in report.verdict("run", log) for word in ('good"><b>Finished', 'good"><b>Limits', 'open"><b>Motion', 'open"><b>Run-out', 'bad"><b>Checks')] == [True] * 5
-    text = report.verdict("run", report.read_log(folder(LOG.replace("not at rest", "at rest").replace("so far: ", ""))))
+    text = report.verdict("run", results.read_log(folder(LOG.replace("not at rest", "at rest").replace("so far: ", ""), 0, 0)))
     assert 'good"><b>Motion' in text and 'good"><b>Run-out</b> H = 87 m' in text and "open" not in text, text
 
 
+def test_checks():
+    """A fault is red, what is coarse is not; texts keep quotes, commas and ends of lines."""
+    for fault, coarse, mark in ((1, 1, "bad"), (0, 1, "open"), (0, 0, "good")):
+        text = report.verdict("run", results.read_log(folder(LOG, fault, coarse)))
+        assert f'{mark}"><b>Checks' in text, text
+    first, second, third = results.read_checks("run")
+    assert (first.kind, first.is_exceeded, second.remedy) == ("fault", False, 'use cells of "0.1" m, or less') and third.remedy.endswith("larger\nYoung's modulus")
+
+
 def test_ends():
-    text = report.verdict("run", report.read_log(folder(LOG.split("Finished")[0])))
+    text = report.verdict("run", results.read_log(folder(LOG.split("Finished")[0])))
     assert 'bad"><b>Not finished</b>' in text and "at t = 1 s, the end time is 1 s" in text and 'bad"><b>Checks' in text, text
-    assert 'bad"><b>Stopped' in report.verdict("run", report.read_log(folder(LOG.replace("Finished ", "Stopped  "))))
+    assert 'bad"><b>Stopped' in report.verdict("run", results.read_log(folder(LOG.replace("Finished ", "Stopped  "))))
 
 
 def test_page():

@@ -13,7 +13,7 @@ from scipy import stats
 
 from scree import results, variants
 from scree.results import Raster
-from scree.scenarios import evaluation, observed, page, sampling, study
+from scree.scenarios import evaluation, observed, page, runs, sampling, study
 
 from test_tools import raises, rows_of, run_tests
 
@@ -85,17 +85,6 @@ def test_probability():
     values, part = evaluation.exceedance([3., 1., 2., 4.])
     assert list(values) == [1, 2, 3, 4] and list(part) == [1, 0.75, 0.5, 0.25]
     np.testing.assert_allclose(evaluation.quantiles([1., 2., 3., 4., 5.]), [1.2, 2, 3, 4, 4.8])
-
-
-def test_run_out():
-    """A plane of slope 1/2; release in the left column, soil to the right one: L = 30 m, H = 15 m and the thickness at the top."""
-    ground = Raster(np.tile(20 - 0.5 * np.array([5., 15., 25., 35.]), (2, 1)), 0., 0., 10.)
-    source = ground._replace(values=np.array([[1., 0, 0, 0], [2., 0, 0, 0]]))
-    reached = ground._replace(values=np.array([[1., 1., 1., 0.05], [2., 1., 1., 1.]]))
-    found = {one.key: value for one, value in evaluation.farthest(source, reached, ground, 0.1).items()}
-    assert found == {"run_out": 30, "toe_x": 35, "toe_y": 5, "drop": 17, "h_over_l": 17 / 30}
-    assert "h_over_l" not in [one.key for one in evaluation.farthest(source, reached, None, 0.1)]
-    assert not evaluation.farthest(source, ground._replace(values=0 * ground.values), ground, 0.1)
 
 
 def test_influence():
@@ -210,6 +199,9 @@ def test_runs():
     rows = rows_of("results/study/runs.csv")
     assert [row["verdict"] for row in rows] == ["finished"] * 3 + ["failed"] and [row["run"] for row in rows] == ["0001", "0002", "0003", "0004"]
     np.testing.assert_allclose([float(row["largest_thickness_m"]) for row in rows[:3]], [0.25, 0.5, 0.75], rtol=0.02)
+    for number, row in zip(("0001", "0002", "0003"), rows):
+        statistics = results.read_statistics(f"results/study/runs/{number}")
+        assert float(row["run_out_m"]) == statistics["Run-out length (m)"][-1] and float(row["h_over_l"]) == statistics["Run-out H/L (-)"][-1], row
     table = np.genfromtxt("results/study/maps/probability.csv", delimiter=",", names=True)
     np.testing.assert_allclose(table["probability_thickness_01m"][0], 1)
     np.testing.assert_allclose(table["probability_thickness_04m"][0], 2 / 3, rtol=1e-5)
@@ -221,6 +213,27 @@ def test_runs():
     assert "4 runs, 1 to do" in call("--cores", "2")
     assert ends == {number: pathlib.Path(f"results/study/runs/{number}/finished").stat().st_mtime_ns for number in ends}
     np.testing.assert_allclose(float(rows_of("results/study/runs.csv")[3]["largest_thickness_m"]), 1, rtol=0.02)
+
+
+def test_verdicts():
+    """Faults and what is coarse of each run come from its checks.csv, whatever the layout of its log."""
+    checks = {"0001": {"smallest V/V_0": ("fault", 1), "a long name: with a colon; and more": ("fault", 1)}, "0002": {"thickness of the moving soil": ("resolution", 1)},
+              "0003": {"smallest V/V_0": ("fault", 0), "numerical dissipation": ("information", 0)}}
+    pathlib.Path("study.toml").write_text(GRID.replace('case = ', 'results = "verdicts"\ncase = '), encoding="utf-8")
+    one = study.read("study.toml")
+    for number, found in checks.items():
+        run = one.run(number)
+        run.mkdir(parents=True)
+        (run / "finished").touch()
+        (run / "log.txt").write_text("Checks      fault: of another program\n", encoding="utf-8")
+        rows = "".join(f'"{name}","1","0","{kind}","{is_exceeded}","",""\n' for name, (kind, is_exceeded) in found.items())
+        (run / "checks.csv").write_text("check,value,bound,class,is_exceeded,place,remedy\n" + rows, encoding="utf-8")
+    verdicts = {number: runs.verdict(one, number) for number in one.numbers}
+    assert verdicts["0001"].faults == tuple(checks["0001"]) and verdicts["0001"].coarse == () and verdicts["0004"].word == "not run"
+    assert verdicts["0002"].coarse == ("thickness of the moving soil",) and verdicts["0003"][1] == verdicts["0003"].coarse == ()
+    lines = {label: (is_good, text) for is_good, label, text in page.summary(one, page.Evaluated(verdicts, {number: {} for number in checks}, []))}
+    assert lines["Checks"][1].startswith("1 of 3 runs have a fault: ") and all(f"{name} in 1" in lines["Checks"][1] for name in checks["0001"]), lines
+    assert lines["Resolution"] == (False, "1 of 3 runs are coarse, cut off or not final: thickness of the moving soil in 1"), lines
 
 
 def test_factors():

@@ -78,25 +78,21 @@ namespace scree
     unsigned int damping;      ///< stress of the damping of the skeleton, Pa, n_symmetric_components<dim>
     bool has_damping;          ///< whether points have it
     unsigned int start;        ///< location at the start of the run, m, dim
-    bool has_start;            ///< whether points have it
     unsigned int n_properties; ///< doubles of a point in total
 
     /// @param n_internal_variables of the material law
     /// @param with_affine whether the transfer carries an affine velocity field
     /// @param with_damping whether the skeleton is damped
-    /// @param with_start whether points keep the place where they started
     /// @param n_further slots behind the soil's own: of water that rides on the points
     PropertyLayout(const unsigned int n_internal_variables,
                    const bool with_affine,
                    const unsigned int n_further = 0,
-                   const bool with_damping      = false,
-                   const bool with_start        = false)
+                   const bool with_damping      = false)
         : affine(internal_variables + n_internal_variables)
         , damping(affine + (with_affine ? dim * dim : 0))
         , has_damping(with_damping)
         , start(damping + (with_damping ? n_symmetric_components<dim> : 0))
-        , has_start(with_start)
-        , n_properties(start + (with_start ? dim : 0) + n_further)
+        , n_properties(start + dim + n_further)
     {
     }
   };

@@ -202,6 +202,16 @@ namespace scree
   /// The face of the box, in deal.II's numbering, beyond which a point outside is farthest.
   template <int dim>
   unsigned int nearest_face(const BackgroundGrid<dim> &grid, const dealii::Point<dim> &location);
+
+  /// A face of the box in words: `the wall x = 1 m ("Upper corner")`.
+  template <int dim>
+  std::string wall_text(const BackgroundGrid<dim> &grid, const unsigned int face)
+  {
+    const bool is_lower = face % 2 == 0;
+    return std::string("the wall ") + "xyz"[face / 2] + " = " +
+           coordinate_text((is_lower ? grid.lower_corner() : grid.upper_corner())[face / 2]) + " m (\"" +
+           (is_lower ? "Lower" : "Upper") + " corner\")";
+  }
 } // namespace scree
 
 #endif

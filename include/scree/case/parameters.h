@@ -190,12 +190,6 @@ namespace scree
       return regions;
     }
 
-    /// Whether soil points keep the place where they started.
-    bool keeps_places() const
-    {
-      return probes.displacement || settling.maximum_time > 0.;
-    }
-
     /// Whether the skeleton of the soil is damped: in water, where it may rub against ground or walls.
     bool damps_skeleton() const;
 

@@ -12,19 +12,29 @@
 
 namespace scree
 {
+  /// What a check beyond its bound means.
+  enum class Finding
+  {
+    fault,     ///< the run is not sound
+    resolution ///< the run is sound, and some of its results are coarse, cut off or not final
+  };
+
   /// What a run has found in a check of itself.
   struct CheckResult
   {
-    std::string text;          ///< name and worst value, in words
-    std::string bound;         ///< what a sound run does not exceed, in words; empty: the value is for information
-    bool is_exceeded  = false; ///< whether the bound is
-    std::string where = "";    ///< point, place and time of the worst value; may be empty
+    std::string name;                    ///< the same in all runs
+    std::string value;                   ///< the worst, with its unit
+    std::string bound  = "";             ///< what is not exceeded, in words; empty: the value is for information
+    bool is_exceeded   = false;          ///< whether the bound is
+    std::string remedy = "";             ///< what to do if it is
+    Finding finding    = Finding::fault; ///< what it then is
+    std::string where  = "";             ///< point, place and time of the worst value; may be empty
 
     /// Saves or loads all of it (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &text &bound &is_exceeded &where;
+      archive &name &value &bound &is_exceeded &remedy &finding &where;
     }
   };
 
@@ -46,8 +56,14 @@ namespace scree
   /// 75 -> "1 min 15 s"
   std::string duration(const double seconds);
 
-  /// The lines `Checks`: values out of bounds with their bounds and places, then the others.
+  /// A text of the log behind its label, in lines of at most 100 letters.
+  std::string in_lines(const std::string &label, const std::string &text);
+
+  /// The lines `Checks`: faults and what is coarse with bound, place and remedy, then values within bounds.
   std::string verdict(const std::vector<CheckResult> &results);
+
+  /// The same for programs: a `.csv` with a line a check.
+  std::string verdict_table(const std::vector<CheckResult> &results);
 
   /// Processor time that this process has taken so far, its own and the system's for it, s. (deal.II's CPUClock counts
   /// its own alone, which the system guesses from ticks: of short runs that is nothing or twice as much.)

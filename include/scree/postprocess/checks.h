@@ -6,8 +6,6 @@
 #include <scree/boundary/boundary_conditions.h>
 #include <scree/postprocess/statistics.h>
 
-#include <boost/serialization/array.hpp>
-
 namespace scree
 {
   /// Looks at the points now and then for what a sound run does not do, and logs where and when it first did.
@@ -18,15 +16,18 @@ namespace scree
     /// All are kept by reference.
     /// @param bed null: none
     /// @param walls of the box; null: they are structures that soil may hit
+    /// @param inflow_faces that soil enters through, in deal.II's numbering
     RunChecks(const BackgroundGrid<dim> &grid,
               const dealii::Tensor<1, dim> &gravity,
               const DiscreteLevelSet<dim> *bed,
               const BoundaryConditions<dim> *walls,
+              const std::set<unsigned int> &inflow_faces,
               RunFolder &folder)
         : grid(grid)
         , gravity(gravity)
         , bed(bed)
         , walls(walls)
+        , inflow_faces(inflow_faces)
         , folder(folder)
     {
     }
@@ -49,7 +50,6 @@ namespace scree
     void serialize(Archive &archive, const unsigned int)
     {
       archive &worst &is_told &last_step &has_looked &has_soil &usual_speed_of_soil &usual_speed_of_water;
-      archive &front_at_start &top_at_start;
     }
 
   private:
@@ -60,8 +60,11 @@ namespace scree
       depth,     ///< of a point below the bed, over the cell size
       shrinkage, ///< V_0/V of soil
       dilation,  ///< V/V_0 of soil in contact, mean of a cell
-      stress, ///< p' or vertical stress, the smaller, over rho g H of the soil, H from its lowest to its highest point
-      wall,   ///< way of the soil to a closed side wall or up it, m, where it comes within a cell, if above a cell
+      stress, ///< p' or vertical stress, the smaller, over rho g H of the soil, H from its lowest to its highest point;
+              ///< the 99.9 % quantile by volume
+      peak,   ///< the same of the point with the largest one, at any time: a point that closes a gap, for instance
+      wall,   ///< displacement, m, of soil within a cell of a closed side wall, by more than a cell to it or up it
+      slide,  ///< the same of soil that has moved by more than a cell along a wall at which it has stood
       lost,   ///< points of soil that left the box
       n_checks
     };
@@ -70,7 +73,7 @@ namespace scree
     struct Suspect
     {
       double value = 0.; ///< see Check
-      double found = 0.; ///< of the point: speed, m/s, depth, m, V/V_0, stress, Pa, or the number of those lost
+      double found = 0.; ///< of the point: speed, m/s, depth, m, V/V_0, way, m, or the number of those lost
       std::string point; ///< body, number and place, in words
       double time = 0.;  ///< s
 
@@ -101,9 +104,8 @@ namespace scree
     const dealii::Tensor<1, dim> gravity;
     const DiscreteLevelSet<dim> *bed;
     const BoundaryConditions<dim> *walls;
+    const std::set<unsigned int> inflow_faces;
     RunFolder &folder;
-    std::array<double, 2 * dim> front_at_start{};               // smallest distance of soil from each face, m
-    std::array<double, 2 * dim> top_at_start{};                 // height of the highest soil within a cell of it, m
     double usual_speed_of_soil = 0., usual_speed_of_water = 0.; // largest 99.9 % quantiles so far, m/s
     Suspects now, worst;
     std::array<bool, n_checks> is_told{};

@@ -205,7 +205,7 @@ namespace scree
   struct PartOfMass
   {
     double place; ///< the number
-    double mass;  ///< kg
+    double mass;  ///< kg, or a volume, m^3
   };
 
   /// The numbers below which the given fractions of the mass of all ranks lie; `lower` without mass. Collective.
@@ -216,14 +216,15 @@ namespace scree
                                   const std::vector<double> &fractions,
                                   const MPI_Comm communicator);
 
-  /// The same of numbers that are not negative; 0 without mass. Collective.
+  /// The number below which a fraction of the mass lies; 0 without mass. Collective.
   inline double percentile(const std::vector<PartOfMass> &parts, const double fraction, const MPI_Comm communicator)
   {
-    double largest = 0.;
+    std::vector<double> ends(2, std::numeric_limits<double>::lowest()); // largest number, and minus the smallest
     for (const PartOfMass &part : parts)
-      largest = std::max(largest, part.place);
-    largest = dealii::Utilities::MPI::max(largest, communicator);
-    return largest > 0. ? percentiles(parts, 0., largest * (1. + 1e-9), { fraction }, communicator)[0] : 0.;
+      ends = { std::max(ends[0], part.place), std::max(ends[1], -part.place) };
+    dealii::Utilities::MPI::max(ends, communicator, ends);
+    const double above = 1e-9 * std::max(std::abs(ends[0]), std::abs(ends[1]));
+    return ends[0] >= -ends[1] ? percentiles(parts, -ends[1], ends[0] + above, { fraction }, communicator)[0] : 0.;
   }
 
   /// The x below which the given fractions of the mass of all bodies, or of the water, lie, m. Collective.

@@ -98,13 +98,12 @@ namespace scree
     unsigned int places_a_line = 51;    ///< number of places on each line
     double front_thickness     = 0;     ///< m; 0: no front
     bool wall_forces           = false; ///< whether forces on the faces of the box are written
-    bool displacement          = false; ///< of the points of the pictures
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at what does not read, lies outside the box or has no name of its own.
-    void check(const GridParameters &grid, const unsigned int dim, const bool has_soil) const;
+    void check(const GridParameters &grid, const unsigned int dim) const;
 
     /// What entry `Places`, `Lines` or `Verticals` lists; points of verticals have dim - 1 coordinates. Throws
     /// EntryError at what does not read.

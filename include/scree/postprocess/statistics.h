@@ -3,12 +3,12 @@
 #define scree_postprocess_statistics_h
 
 #include <scree/boundary/obstacle.h>
-#include <scree/io/progress.h>
-#include <scree/postprocess/measures.h>
+#include <scree/postprocess/soil_motion.h>
 #include <scree/step/step_report.h>
 
 #include <boost/range/adaptor/map.hpp>
 #include <boost/range/iterator_range.hpp>
+#include <boost/serialization/array.hpp>
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/utility.hpp>
 
@@ -20,7 +20,8 @@ namespace scree
   {
     Budget<dim> balance;                     ///< momentum and energy at the nodes
     dealii::Tensor<1, dim> lost_momentum;    ///< of soil and water points that left through an open wall, N s
-    double lost_mass       = 0;              ///< of soil, kg
+    double lost_mass = 0;                    ///< of soil, kg
+    dealii::Tensor<1, 2 * dim> lost_through; ///< the same by the face of the box that it left through, kg
     double lost_volume     = 0;              ///< of soil as dense as at the start, m^3 (2D: per m)
     double lost_water_mass = 0;              ///< kg
     double lost_energy     = 0;              ///< the same, without the elastic one, J
@@ -72,80 +73,12 @@ namespace scree
       archive &balance;
       archive &material
           .plastic_dissipation &lost_mass &lost_volume &lost_water_mass &lost_energy &lost_momentum &n_lost;
+      archive &lost_through;
       archive &entered_momentum &n_entered &entered_mass &entered_water_mass &entered_energy;
       archive &elastic_energy;
       archive &material.n_updates &material.n_substeps &material.n_fallbacks;
       archive &material.n_vertices &material.n_unresolved;
     }
-  };
-
-  /// How fast the soil of all ranks is, and how far it has come since the start (2D: per m). doc/output.md has the
-  /// definitions.
-  struct MotionNumbers
-  {
-    double speed        = 0; ///< that 1 % of the mass exceeds, m/s
-    double moving_part  = 0; ///< of the mass, faster than rest_speed()
-    double thickness    = 0; ///< of moving (at the start: all) soil, normal to the ground, median by volume, cells
-    double length       = 0; ///< horizontal length L of the path, m
-    double fall         = 0; ///< its height H, m
-    double area         = 0; ///< of the deposit, m^2 (2D: m)
-    double volume       = 0; ///< of the deposit, m^3 (2D: m^2)
-    double travel_angle = 0; ///< atan(H/L), degrees
-  };
-
-  /// Whether the soil has come to rest, how well the cells resolve what moves, and the path of the run-out.
-  template <int dim>
-  class SoilMotion
-  {
-  public:
-    /// Cells over the thickness of moving soil.
-    static constexpr double least_cells = 3.;
-
-    /// Keeps references.
-    /// @param gravity m/s^2
-    /// @param bed null: the ground is normal to the last axis
-    SoilMotion(const BackgroundGrid<dim> &grid, const dealii::Tensor<1, dim> &gravity, const DiscreteLevelSet<dim> *bed)
-        : grid(grid)
-        , gravity(gravity)
-        , bed(bed)
-        , columns(grid)
-    {
-    }
-
-    /// Looks at the soil; the first look is the start. Collective.
-    MotionNumbers look(const std::list<SoilBody<dim>> &bodies, const double time);
-
-    /// Thickness of the moving soil in cells, at the look with the largest kinetic energy; empty if nothing moved.
-    std::vector<CheckResult> results() const;
-
-    /// The lines `Motion` and `Run-out` of the last look; empty without soil, or without gravity.
-    std::string text() const;
-
-    /// Saves or loads the start and the last look (Boost).
-    template <class Archive>
-    void serialize(Archive &archive, const unsigned int)
-    {
-      archive &start_thickness &start_height &largest_kinetic &thickness_then &last_time &has_soil;
-      archive &last.speed &last.moving_part &last.length &last.fall &last.area &last.volume &last.travel_angle;
-    }
-
-  private:
-    /// Soil below this speed rests, m/s.
-    double rest_speed() const;
-
-    /// Path and deposit: what columns have lost and gained.
-    void find_path(const std::vector<double> &thickness, const std::vector<double> &height);
-
-    const BackgroundGrid<dim> &grid;
-    const dealii::Tensor<1, dim> gravity;
-    const DiscreteLevelSet<dim> *bed;
-    const CellColumns<dim> columns;
-    std::vector<double> start_thickness, start_height; // of the columns, m
-    MotionNumbers last;
-    double largest_kinetic = 0; // J
-    double thickness_then  = 0; // in cells
-    double last_time       = 0; // s
-    bool has_soil          = false;
   };
 
   /// Soil and water of all ranks at the start of a run, which balances count from (2D: per m).
@@ -374,12 +307,16 @@ namespace scree
       return motion;
     }
 
+    /// The oscillations of p' and p, means over the time since the first row.
+    std::vector<CheckResult> results() const;
+
     /// Saves or loads the last row and the state that differences start from (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
       archive &history.start;
       archive &last_row &history.step &history.time &history.balance &motion;
+      archive &oscillations;
     }
 
   private:
@@ -389,6 +326,7 @@ namespace scree
     SoilMotion<dim> motion;
     RowHistory<dim> history;
     StatisticsRow last_row;
+    std::array<double, 2> oscillations{}; // of p' and p: integrals over time, s
   };
 } // namespace scree
 

@@ -74,6 +74,7 @@ namespace scree
                  scene.forcing.gravity(),
                  scene.bed.get(),
                  parameters.probes.wall_forces ? nullptr : &scene.walls,
+                 inflow_faces(scene.parameters),
                  folder)
         , balances(scene.grid, scene.forcing)
         , files(scene.grid.communicator())
@@ -170,6 +171,7 @@ namespace scree
     /// After a checkpoint has been read: drops from lists and rows what was written after it.
     void cut()
     {
+      folder.write("checks.csv", ""); // those of a run that has gone on
       graphics.cut();
       for (TableFile &table : probes.files())
         table.cut();
@@ -188,11 +190,13 @@ namespace scree
     {
       add_checks(balances.results());
       add_checks(checks.results());
+      add_checks(statistics.results());
       add_checks(statistics.soil_motion().results());
       if (const std::string text = statistics.soil_motion().text(); !text.empty())
         folder.log(text);
       if (!found.empty())
         folder.log(verdict(found));
+      folder.write("checks.csv", verdict_table(found));
       folder.log("Results     " + text_of_results());
       if (folder.is_writer() && parameters.output.screen_kind() == Screen::statistics)
         statistics.print_last_row(std::cout);
@@ -216,6 +220,14 @@ namespace scree
     }
 
   private:
+    static std::set<unsigned int> inflow_faces(const Parameters &parameters)
+    {
+      std::set<unsigned int> faces;
+      for (const InflowParameters &inflow : parameters.inflows)
+        faces.insert(inflow.face_number(dim));
+      return faces;
+    }
+
     /// Where the results are.
     std::string text_of_results() const
     {

@@ -388,10 +388,9 @@ def _draw(arguments):
     output = arguments.output or arguments.run / ("_".join(["maps"] + names) + ".png")
     render(arguments.run, names or default_maps(arguments.run), output)
     print(f"Wrote {output}")
-    log = arguments.run / "log.txt"
-    path = re.findall(r"^Run-out +(.+\n +.+)$", log.read_text(encoding="utf-8", errors="replace") if log.exists() else "", re.MULTILINE)
+    path = results.read_log(arguments.run).parts.get("Run-out")
     if path:
-        print("Run-out: " + " ".join(path[-1].split()))
+        print("Run-out: " + " ".join(path.split()))
 
 
 def main():

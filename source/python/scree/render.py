@@ -56,9 +56,8 @@ def _collections(arguments):
     available = {name: results.read_points(arguments.run, None, name).arrays for name in wanted or ["points"]}
     chosen = {name: arguments.field for name, fields in available.items() if arguments.field in fields}
     if not chosen:
-        remedy = ' It is written with "Displacement = true" in subsection Probes.' if arguments.field == "displacement" else ""
         raise ValueError(f"No field {arguments.field}; there are: " +
-                         "; ".join(f"{', '.join(sorted(fields))} ({name})" for name, fields in available.items()) + "." + remedy)
+                         "; ".join(f"{', '.join(sorted(fields))} ({name})" for name, fields in available.items()) + ".")
     return chosen
 
 

@@ -17,7 +17,6 @@ import re
 import subprocess
 import sys
 import tempfile
-from typing import NamedTuple
 
 import numpy as np
 import PIL.Image
@@ -41,38 +40,6 @@ summary { cursor: pointer; } ul { padding-left: 1.2rem; }
 @media print { body { font-size: 10pt; margin: 0; max-width: none; } nav { display: none; } figure, tr, .good, .open, .bad { break-inside: avoid; }
                h2 { break-after: avoid; } pre { white-space: pre-wrap; font-size: 8pt; } a { color: inherit; } }
 """
-
-
-class Log(NamedTuple):
-    """What the log tells of a run: parts of its last start by their labels, such as "Checks", and warnings of all starts."""
-    parts: dict
-    warnings: list
-    text: str
-
-
-def read_log(run):
-    """The log of a run folder; empty if there is none. A label is a word in the first 12 columns; its further lines are indented."""
-    file = pathlib.Path(run) / "log.txt"
-    text = file.read_text(encoding="utf-8", errors="replace") if file.exists() else ""
-    parts, warnings, label = {}, [], None
-    for line in text.splitlines():
-        labelled = re.match(r"([A-Z][A-Za-z -]{1,9}[A-Za-z])  +(\S.*)$", line)
-        if line.startswith("Scree "):
-            parts, label = {"Program": line}, None
-        elif labelled and len(line) - len(labelled.group(2)) == 12:
-            label = labelled.group(1)
-            parts[label] = labelled.group(2)
-            if label == "Warning":
-                warnings.append(labelled.group(2))
-        elif re.match(r" {2,}\S", line) and label and not re.match(r" +[-0-9.e+]+ +[0-9]+ %", line):
-            parts[label] += "\n" + line.strip()
-            if label == "Warning":
-                warnings[-1] += " " + line.strip()
-        else:
-            label = None
-            if re.match(r"Check:|Unusual value|'Maximum time step' bounds|Stopped|The run before this one|.*NODATA", line):
-                warnings.append(line)
-    return Log(parts, warnings, text)
 
 
 def identity(run, log):
@@ -104,7 +71,7 @@ def table(rows, head=()):
 
 
 def verdict(run, log):
-    """How the run has ended, and the lines Limits, Motion, Run-out and Checks, each marked as good, bad or, as motion goes on, open."""
+    """How the run has ended, and the lines Limits, Motion, Run-out and Checks, each marked as good, bad (a fault) or open (resolution, motion goes on)."""
     lines = []
     if "Stopped" in log.parts:
         lines.append(("bad", "Stopped", log.parts["Stopped"]))
@@ -112,11 +79,12 @@ def verdict(run, log):
         lines.append(("good", "Finished", log.parts["Finished"]))
     else:
         lines.append(("bad", "Not finished", f"the run still goes on, or has ended with an error; {_last_time(run)}"))
+    checks = results.read_checks(run)
+    beyond = {check.kind for check in checks if check.is_exceeded}
     mark = "open" if log.parts.get("Motion", "").startswith("not at rest") else "good"
     lines += [(mark if label != "Limits" else "good", label, log.parts[label]) for label in ("Limits", "Motion", "Run-out") if label in log.parts]
-    checks = log.parts.get("Checks", "there is no such line in the log: the run did not come to its end")
-    is_bad = "Checks" not in log.parts or "out of bounds" in checks or "worst:" in checks
-    lines.append(("bad" if is_bad else "good", "Checks", checks))
+    lines.append(("bad" if "fault" in beyond or not checks else "open" if beyond else "good", "Checks",
+                  log.parts.get("Checks", "there is no such line in the log: the run did not come to its end")))
     return "\n".join(f'<div class="{mark}"><b>{label}</b> {html.escape(text)}</div>' for mark, label, text in lines)
 
 
@@ -246,7 +214,7 @@ def page(run, field=None, times=None):
     """The whole text of the report. Throws OSError or ValueError if `run` is no run folder."""
     run = pathlib.Path(run)
     variants.read_entries(run / "parameters.prm")
-    log, charts = read_log(run), []
+    log, charts = results.read_log(run), []
     with tempfile.TemporaryDirectory() as folder:
         drawn = {section: _figures(run, commands, folder, charts) for section, commands in picture_commands(run, field, times).items()}
     sections = [

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Reads what runs wrote: tables (statistics, probes), points, the box, maps. SI units."""
 
+import csv
 import pathlib
 import re
 import xml.etree.ElementTree
@@ -109,6 +110,58 @@ def read_points(run, time=None, collection="points"):
 def read_statistics(run):
     """The columns of the statistics file, see `read_table`."""
     return read_table(pathlib.Path(run) / "statistics")
+
+
+class Log(NamedTuple):
+    """What the log tells of a run: parts of its last start by their labels, such as "Checks", and warnings of all starts."""
+    parts: dict
+    warnings: list
+    text: str
+
+
+def read_log(run):
+    """The log of a run folder; empty if there is none. A label is a word in the first 12 columns; its further lines are indented."""
+    file = pathlib.Path(run) / "log.txt"
+    text = file.read_text(encoding="utf-8", errors="replace") if file.exists() else ""
+    parts, warnings, label = {}, [], None
+    for line in text.splitlines():
+        labelled = re.match(r"([A-Z][A-Za-z -]{1,9}[A-Za-z])  +(\S.*)$", line)
+        if line.startswith("Scree "):
+            parts, label = {"Program": line}, None
+        elif labelled and len(line) - len(labelled.group(2)) == 12:
+            label = labelled.group(1)
+            parts[label] = labelled.group(2)
+            if label == "Warning":
+                warnings.append(labelled.group(2))
+        elif re.match(r" {2,}\S", line) and label and not re.match(r" +[-0-9.e+]+ +[0-9]+ %", line):
+            parts[label] += "\n" + line.strip()
+            if label == "Warning":
+                warnings[-1] += " " + line.strip()
+        else:
+            label = None
+            if re.match(r"Check:|Unusual value|'Maximum time step' bounds|Stopped|The run before this one|.*NODATA", line):
+                warnings.append(line)
+    return Log(parts, warnings, text)
+
+
+class Check(NamedTuple):
+    """What a run has found in a check of itself; `kind`: "fault", "resolution" or "information" (doc/output.md)."""
+    name: str
+    value: str
+    bound: str
+    kind: str
+    is_exceeded: bool
+    place: str
+    remedy: str
+
+
+def read_checks(run):
+    """The checks of a run, from its checks.csv; empty before its end."""
+    file = pathlib.Path(run) / "checks.csv"
+    if not file.exists():
+        return []
+    with open(file, encoding="utf-8", newline="") as rows:
+        return [Check(row["check"], row["value"], row["bound"], row["class"], row["is_exceeded"] == "1", row["place"], row["remedy"]) for row in csv.DictReader(rows)]
 
 
 def read_table(path):

@@ -28,15 +28,13 @@ MOUNTAINS = {"thin, rough": {}, "cut-off rim": {"rim": "cut"}, "smooth": {"relie
 
 def numbers_of(folder, run, cell, is_of_map):
     """What the bounds are about, from log and statistics of a run."""
-    log = (folder / run / "log.txt").read_text(encoding="utf-8")
-    gains = re.findall(r"largest energy gain (?:of [^%]* )?(\S+) %", log[log.rindex("Checks "):])
-    patterns = {"speed": r"fastest point (\S+) times", "V/V_0": r"smallest V/V_0 ([^\s;]+)", "stress": r"largest stress (\S+) of", "depth": r"deepest point (\S+) m"}
-    found = {name: re.findall(pattern, log[log.rindex("Checks "):])[0] for name, pattern in patterns.items()}
+    wanted = ("fastest point", "deepest point", "largest energy gain", "largest stress", "smallest V/V_0")
+    found = {check.name: float(check.value.split()[0]) for check in results.read_checks(folder / run) if check.name.startswith(wanted)}
     table, release = results.read_statistics(folder / run), results.read_raster(folder / "release.asc")
-    return {"speed": float(found["speed"]), "depth": float(found["depth"]) / cell, "lost": table["Points lost"][-1],
+    return {"speed": found["fastest point"], "depth": found["deepest point"] / cell, "lost": table["Points lost"][-1],
             "mass": abs(table["Mass (kg)"][0] / (BULK_DENSITY * release.values.clip(0).sum() * release.width**2) - 1) if is_of_map else np.nan,
-            "energy": max(map(float, gains)) / 100,
-            "stress": float(found["stress"]), "V/V_0": float(found["V/V_0"])}
+            "energy": max(gain for name, gain in found.items() if name.startswith("largest energy gain")) / 100,
+            "stress": found["largest stress"], "V/V_0": found["smallest V/V_0"]}
 
 
 def run_case(scree, folder, seed, mountain=None, cell=10., entries=None, n_ranks=1):

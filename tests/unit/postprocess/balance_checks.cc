@@ -140,12 +140,19 @@ const UnitTest balance_checks_test("balance_checks", [] {
   check_middle_of_steps();
   check_first_step();
 
-  std::cout << "layout\n"
-            << verdict({ { "first check of a long name 1", "", false, "" },
-                         { "second check of a long name 2", "1", true, "a point at (0, 0) m, t = 1 s: so it is" },
-                         { "third check of a long name 3", "2", false, "" },
-                         { "fourth check of a long name 4", "3", false, "" } })
-            << '\n';
+  const std::vector<CheckResult> results{
+    { "first check of a long name", "1" },
+    { "second check of a long name", "2 m", "1 m", true, "use smaller cells", Finding::resolution },
+    { "third check of a long name",
+      "3",
+      "2",
+      true,
+      "write \"auto\"",
+      Finding::fault,
+      "a point at (0, 0) m, t = 1 s: so it is" },
+    { "fourth check of a long name", "4", "5" }
+  };
+  std::cout << "layout\n" << verdict(results) << '\n' << verdict_table(results);
 });
 } // namespace test_balance_checks
 

@@ -14,6 +14,7 @@ from scree.pictures.panels import save_picture
 PANELS = {
     "energy": ["Kinetic energy (J)", "Potential energy (J)", "Elastic energy (J)", "Plastic dissipation (J)", "Wall dissipation (J)",
                "Bed dissipation (J)", "Numerical dissipation (J)", "Drag dissipation (J)", "Energy entered (J)", "Load work (J)"],
+    "run-out": ["Toe displacement (m)", "Largest displacement (m)"],
     "front": ["Front 90 % (m)", "Front 99 % (m)", "Front 99.5 % (m)", "Water front 90 % (m)", "Water front 99 % (m)", "Water front 99.5 % (m)"],
     "force": [],  # on obstacles: their columns have names of the case
     "moment": [],
@@ -21,7 +22,7 @@ PANELS = {
     "step size": ["Time step (s)"],
 }
 LEAST_ENERGY = 2e-3  # of the largest change of an energy; what is always below it is no line to see
-DEFAULT_PANELS = ["energy", "front", "force"]
+DEFAULT_PANELS = ["energy", "run-out", "force"]
 PREFIXES = {-9: "n", -6: "\u00b5", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 
 
@@ -95,7 +96,8 @@ def render_statistics(run, output, titles=None):
     for title in titles or []:
         if title not in PANELS:
             raise ValueError(f"--panels: there is no panel {title}; there are: {', '.join(PANELS)}.")
-    groups = {title: _columns(statistics, title) for title in titles or DEFAULT_PANELS}
+    defaults = [title if title != "run-out" or _columns(statistics, title) else "front" for title in DEFAULT_PANELS]  # water alone has fronts
+    groups = {title: _columns(statistics, title) for title in titles or defaults}
     groups = {title: columns for title, columns in groups.items() if columns}
     if not groups or len(time) == 0:
         return False

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy import stats
 
-from scree import maps, results, terrain, variants
+from scree import maps, results, terrain
 from scree.results import Raster
 
 # Maps of the largest values, by the names of thresholds.
@@ -27,14 +27,12 @@ def numbers_of(study, run):
     """{Result: value} of a run that has ended well."""
     run = pathlib.Path(run)
     box, table = results.read_box(run), results.read_statistics(run)
-    found = {}
-    is_map = box.dim == 3 and bool(maps.map_files(run))
-    if study.run_out == "distance" and is_map:
-        found.update(_run_out(run, study.run_out_thickness))
-    else:
-        name = "Front 99 % (m)" if study.run_out == "distance" else study.run_out
-        quantity, unit = results.split_unit(name)
-        found[Result("run_out", quantity, unit or "-")] = results.column(table, name)[-1]
+    name = "Run-out length (m)" if study.run_out == "distance" else study.run_out
+    quantity, unit = results.split_unit(name)
+    found = {Result("run_out", quantity, unit or "-"): results.column(table, name)[-1]}
+    if study.run_out == "distance":
+        found[Result("drop", "Drop, H", "m")] = results.column(table, "Fall height (m)")[-1]
+        found[Result("h_over_l", "H/L", "-")] = results.column(table, "Run-out H/L (-)")[-1]
     peaks = peak_maps(run)
     for quantity, one in peaks.items():
         kind = maps.KINDS[MAPS[quantity]]
@@ -58,44 +56,6 @@ def peak_maps(run):
         width = x[1] - x[0]
         return {quantity: Raster(profile[name][None, :], x[0] - width / 2, 0., width) for quantity, name in MAPS.items() if name in profile}
     return {quantity: results.read_raster(files[name]) for quantity, name in MAPS.items() if name in files}
-
-
-def _run_out(run, least):
-    """Horizontal distance from the highest place of the release to the farthest place that soil of at least `least` m reached, and H/L."""
-    source, reached = maps.release(run), peak_maps(run).get("thickness")
-    if source is None or reached is None:
-        return {}
-    box, entries = results.read_box(run), variants.read_entries(pathlib.Path(run) / "parameters.prm")
-    origin = terrain.origin_of_maps(entries, 3)
-    window = [corner + origin[axis] for axis in (0, 1) for corner in (box.lower[axis], box.upper[axis])]
-    try:
-        ground = terrain.ground(run, window)
-    except (OSError, ValueError):
-        ground = None
-    return farthest(source, reached, ground, least)
-
-
-def farthest(source, reached, ground, least):
-    """See `_run_out`: `source` is the thickness of the release, `reached` the largest thickness, `ground` the heights or None; rasters."""
-    has_soil = np.nan_to_num(source.values) > max(0., 1e-9)
-    is_reached = np.nan_to_num(reached.values) >= max(least, 1e-9)
-    if not np.any(has_soil) or not np.any(is_reached):
-        return {}
-    x, y = terrain.places(source)
-    rows, columns = np.nonzero(has_soil)
-    heights = np.zeros(len(rows)) if ground is None else terrain.value_at(ground, x[columns], y[rows])
-    top = np.nanargmax(heights + source.values[rows, columns])
-    start = x[columns[top]], y[rows[top]]
-    x, y = terrain.places(reached)
-    rows, columns = np.nonzero(is_reached)
-    distances = np.hypot(x[columns] - start[0], y[rows] - start[1])
-    toe = int(np.argmax(distances))
-    found = {Result("run_out", "Run-out", "m"): distances[toe], Result("toe_x", "Toe, x", "m"): x[columns[toe]], Result("toe_y", "Toe, y", "m"): y[rows[toe]]}
-    if ground is not None and distances[toe] > 0:
-        drop = heights[top] + source.values[np.nonzero(has_soil)][top] - terrain.value_at(ground, x[columns[toe]], y[rows[toe]])
-        found[Result("drop", "Drop, H", "m")] = drop
-        found[Result("h_over_l", "H/L", "-")] = drop / distances[toe]
-    return found
 
 
 def on_one_grid(rasters):

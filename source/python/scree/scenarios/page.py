@@ -60,7 +60,8 @@ def write_table(study, done):
 def _checks(verdict):
     if verdict.word != "finished":
         return ""
-    return "out of bounds: " + ", ".join(verdict.violated) if verdict.violated else "within bounds"
+    found = [f"{kind}: {', '.join(names)}" for kind, names in (("fault", verdict.faults), ("resolution", verdict.coarse)) if names]
+    return "; ".join(found) or "within bounds"
 
 
 def column(result):
@@ -161,17 +162,18 @@ def draw(study, done, probabilities):
 def summary(study, done):
     """[(is good, label, text)]: how many runs there are, what is missing, what their checks say."""
     n_runs, n_done = len(study.rows), len(done.numbers)
-    n_missing, violated = n_runs - n_done, [done.verdicts[number].violated for number in done.numbers if done.verdicts[number].violated]
+    n_missing = n_runs - n_done
     words = [one.word for one in done.verdicts.values()]
     missing = "".join(f", {words.count(word)} {word}" for word in ("failed", "stopped", "not run") if word in words)
     lines = [(not n_missing, "Runs", f"{n_done} of {n_runs} evaluated{missing}")]
     if n_missing and study.sampling != "one at a time":
         lines.append((False, "Missing", f"probabilities and quantiles hold for the {n_done} runs; over all {n_runs} runs, a probability may differ by up to "
                       f"{100 * n_missing / n_runs:.2g} %"))
-    names = [name for names in violated for name in names]
-    which = ", ".join(f"{name} in {names.count(name)}" for name in sorted(set(names), key=lambda name: -names.count(name)))
-    lines.append((not violated, "Checks", f"{len(violated)} of {n_done} runs violate a check of the program: {which}" if violated
-                  else f"all {n_done} runs are within the bounds of the program's checks"))
+    for label, kind, what in (("Checks", "faults", "have a fault"), ("Resolution", "coarse", "are coarse, cut off or not final")):
+        found = [names for names in (getattr(done.verdicts[number], kind) for number in done.numbers) if names]
+        names = [name for names in found for name in names]
+        which = ", ".join(f"{name} in {names.count(name)}" for name in sorted(set(names), key=lambda name: -names.count(name)))
+        lines.append((not found, label, f"{len(found)} of {n_done} runs {what}: {which}" if found else f"all {n_done} runs are within the bounds"))
     n_lost = sum(row.get(evaluation.Result("mass_lost", "Mass lost", "kg"), 0.) > 0 for row in done.numbers.values())
     if n_lost:
         lines.append((False, "Box", f"in {n_lost} of {n_done} runs soil has left through open walls: their run-out is a lower bound. Enlarge the box"))
@@ -210,19 +212,18 @@ def _quantile_table(study, done):
     rows = []
     for one in done.results:
         _, values = series(done, study, one)
-        if len(values) > 1 and one.key not in ("toe_x", "toe_y", "mass_lost"):
+        if len(values) > 1 and one.key != "mass_lost":
             rows.append((one.name, one.unit, *map(float, evaluation.quantiles(values)), float(np.mean(values)), float(min(values)), float(max(values))))
     head = ("result", "unit", *(f"{100 * part:g} %" for part in evaluation.QUANTILES), "mean", "smallest", "largest")
     return report.table(rows, head) + '\n<p class="note">The given part of the runs stays below the value.</p>' if rows else ""
 
 
 def _run_table(study, done):
-    shown = [one for one in done.results if one.key not in ("toe_x", "toe_y")]
     rows = []
     for number, row in zip(study.numbers, study.rows):
         verdict, found = done.verdicts[number], done.numbers.get(number, {})
-        rows.append((number, *map(_short, row), verdict.word, _checks(verdict), *(f"{found[one]:.5g}" if one in found else "" for one in shown)))
-    head = ("run", *(one.label for one in study.parameters), "verdict", "checks", *(one.name + (f" ({one.unit})" if one.unit != "-" else "") for one in shown))
+        rows.append((number, *map(_short, row), verdict.word, _checks(verdict), *(f"{found[one]:.5g}" if one in found else "" for one in done.results)))
+    head = ("run", *(one.label for one in study.parameters), "verdict", "checks", *(one.name + (f" ({one.unit})" if one.unit != "-" else "") for one in done.results))
     return f'<div style="overflow-x: auto">{report.table(rows, head)}</div>'
 
 

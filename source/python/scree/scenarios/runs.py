@@ -13,7 +13,7 @@ import tempfile
 import time
 from typing import NamedTuple
 
-from scree import command, report, variants
+from scree import command, results, variants
 from scree.scenarios import study as studies
 
 # The marker of a run that has ended well is its output for Snakemake. A stopped run goes on from its checkpoint.
@@ -35,11 +35,12 @@ MISSING = "Install Debian's package snakemake: apt-get install --no-install-reco
 
 
 class Verdict(NamedTuple):
-    """How a run has ended: "finished", "failed", "stopped" or "not run"; what violates a check of the program; message of a failure; wall time, s."""
+    """How a run has ended: "finished", "failed", "stopped" or "not run"; names of its faults; message of a failure; wall time, s; what is coarse."""
     word: str
-    violated: tuple = ()
+    faults: tuple = ()
     message: str = ""
     seconds: float = float("nan")
+    coarse: tuple = ()
 
 
 def verdict(study, number):
@@ -51,17 +52,9 @@ def verdict(study, number):
         lines = (run / "screen.txt").read_text(encoding="utf-8", errors="replace").strip().splitlines() if (run / "screen.txt").exists() else []
         told = [line for line in lines if line.startswith("scree: ")] or lines or [""]
         return Verdict("stopped" if code == "3" else "failed", (), f"exit code {code}: {told[-1].removeprefix('scree: ')}")
-    parts = report.read_log(run).parts
-    seconds = re.match(r"wall time (\S+) s", parts.get("Finished", ""))
-    open_end = ("not at rest",) if parts.get("Motion", "").startswith("not at rest") else ()
-    return Verdict("finished", violated(parts.get("Checks", "")) + open_end, "", float(seconds.group(1)) if seconds else float("nan"))
-
-
-def violated(checks):
-    """The names of what is out of bounds in the lines Checks of a log: "smallest V/V_0"."""
-    found = re.match(r"out of bounds: (.*?)(\nworst: |\nwithin bounds: |$)", checks, re.DOTALL)
-    parts = found.group(1).replace("\n", " ").split(";") if found else []
-    return tuple(re.sub(r" [-+]?[\d.].*", "", part.strip()) for part in parts if part.strip())
+    seconds = re.match(r"wall time (\S+) s", results.read_log(run).parts.get("Finished", ""))
+    faults, coarse = (tuple(check.name for check in results.read_checks(run) if check.is_exceeded and check.kind == kind) for kind in ("fault", "resolution"))
+    return Verdict("finished", faults, "", float(seconds.group(1)) if seconds else float("nan"), coarse)
 
 
 def verdicts(study):
