@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/advise.h>
+#include <scree/case/case_checks.h>
 
 #include <unistd.h>
 
@@ -626,6 +627,12 @@ namespace scree
       advice.seen               = measure_first_steps(simulation, seconds_of_steps, communicator);
       advice.scene              = with_cell_size(seeded, advice.grid.cell_size);
       advice.seen               = with_cell_size(advice.seen, seeded, advice.grid.cell_size);
+      const Scene<dim> &scene   = simulation.state_of_scene();
+      const auto of_first_steps = std::exchange(parameters.grid, advice.grid);
+      for (const std::string &remark :
+           remarks_on(parameters, scene.bodies, scene.water, scene.ground.get(), communicator))
+        out << remark << '\n';
+      parameters.grid = of_first_steps;
     }
     const double seen = advice.seen.duration();
     if (seen < (1. - 1e-9) * advice.scene.end_time)

@@ -4,6 +4,8 @@
 #include <scree/run/safety.h>
 #include <scree/version.h>
 
+#include <unistd.h>
+
 #include <iterator>
 #include <regex>
 
@@ -352,7 +354,10 @@ namespace scree
       std::string text = "Written:";
       for (const auto &[path, content] : files)
         text += ' ' + path.string();
-      return text + "\nNext: scree " + case_file.string() + " --advise, then scree " + case_file.string() + '\n';
+      // --advise looks at the points of the start and refuses cases whose points enter.
+      const bool has_inflow   = files[0].second.find("\nsubsection Inflow") != std::string::npos;
+      const std::string first = has_inflow ? "" : " --advise, then scree " + case_file.string();
+      return text + "\nNext: scree " + case_file.string() + first + '\n';
     }
 
 
@@ -378,6 +383,10 @@ namespace scree
     int run_case(const Arguments &arguments, const Run &run)
     {
       Parameters parameters(arguments.case_file);
+      // A terminal shows that the set-up goes on, until the first line of the log is over it.
+      if (arguments.task != Task::advise && parameters.output.screen_kind() == Screen::progress &&
+          dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 && isatty(STDOUT_FILENO) != 0)
+        std::cout << "Setting up " + arguments.case_file + " ...\r" << std::flush;
       try
         {
           const End end = parameters.dimension == 2 ? run(std::integral_constant<int, 2>(), parameters)

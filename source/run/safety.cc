@@ -123,6 +123,13 @@ namespace scree
                              bracket.rests,
                              digits + 1,
                              bracket.fails));
+        folder.log("Set by      " +
+                   (failed_by_displacement
+                        ? "\"Displacement\": beyond the factor soil moved by " + number_text(safety.displacement) +
+                              " H before it came to rest. Compare a "
+                              "larger one."
+                        : std::string("rest: beyond the factor soil did not come to rest, whatever "
+                                      "\"Displacement\" is.")));
         folder.log("Results     " + path +
                    ": safety.csv; rests and fails, the trials beside the factor, with solution/points.pvd");
         return End::complete;
@@ -157,6 +164,8 @@ namespace scree
           simulation.write_picture();
         }
         bracket.include(factor, trial.end);
+        if (trial.end == TrialEnd::fails)
+          failed_by_displacement = trial.has_moved;
         record(factor, trial);
         if (trial.end != TrialEnd::undecided)
           keep_as(text_of(trial.end));
@@ -226,7 +235,8 @@ namespace scree
       RowFile rows;
       FactorBracket bracket;
       Timer clock; // of all trials
-      unsigned int n_trials = 0;
+      unsigned int n_trials       = 0;
+      bool failed_by_displacement = false; // the last trial that failed
     };
   } // namespace
 
