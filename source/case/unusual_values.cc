@@ -101,8 +101,9 @@ namespace scree
     {
       // In scenes of the laboratory soil of little strength stands.
       constexpr double least_strength = 200., least_part_of_weight = 0.01;
-      const double gravity = largest_value<dim>(parameters, *parameters.entries().find("", "Gravity"));
-      double weight        = 0.; // of the heaviest soil over the height of the box, Pa
+      const CaseEntries entries = parameters.entries();
+      const double gravity      = largest_value<dim>(parameters, *entries.find("", "Gravity"));
+      double weight             = 0.; // of the heaviest soil over the height of the box, Pa
       for (const BodyParameters &body : parameters.bodies)
         weight = std::max(weight, body.bulk_density() * gravity * parameters.grid.lengths().back());
       const double stress = weight > 0. ? std::min(least_strength, least_part_of_weight * weight) : least_strength;
@@ -113,7 +114,7 @@ namespace scree
             return subsection == body.name + "/Initial state" || subsection == body.material.path(body.name);
         return true;
       };
-      for (const CaseEntry &entry : parameters.entries().all())
+      for (const CaseEntry &entry : entries.all())
         {
           const auto found = ranges.find(entry.subsection == "Boundaries" ? "Friction angle" : entry.name);
           if (found == ranges.end() || !is_read(entry.subsection) || number_of(entry.value) <= 0.)

@@ -4,7 +4,6 @@
 import importlib
 import os
 import pathlib
-import py_compile
 import re
 import shutil
 import subprocess
