@@ -130,64 +130,72 @@ namespace scree
     }
 
 
-    /// The volume of a region, m^3 (2D: m^2), that lies beyond a face of the box and ends there; 0 of one that goes on
-    /// without end, such as a half space. Beyond the corners of the box nothing counts.
+    /// The volume of a region, m^3 (2D: m^2), that lies beyond a face of the box and ends there. 0 of one that goes on
+    /// without end behind the face, such as a half space, and behind a wall also in an oblique direction, such as a
+    /// layer. Beyond the corners of the box nothing counts.
     template <int dim>
     double volume_beyond(const Region<dim> &region,
                          const GridParameters &grid,
                          const unsigned int face,
+                         const bool is_open,
                          const LevelSet<dim> *ground)
     {
-      constexpr unsigned int n_lines = dim == 2 ? 64 : 16, n_places = 128; // along an axis; of a line
-      constexpr double lengths      = 4.;                                  // of the box, of a line
+      constexpr unsigned int n_lines = dim == 2 ? 32 : 16, n_places = dim == 2 ? 1024 : 128; // an axis; a line
+      constexpr unsigned int n_oblique = dim == 2 ? 1024 : 96;                               // along an axis
+      constexpr double lengths = 4., oblique = 16.; // of the box: of a line; of the plane that oblique layers reach
       const std::vector<double> box = grid.lengths();
       const unsigned int axis       = face / 2;
       const auto is_inside          = [&](const Point<dim> &x) {
         try
           {
-            return region.contains(x) && (ground == nullptr || ground->is_open(x));
+            return region.contains(x);
           }
         catch (const ValueError &) // Outside the box an expression need not be a number.
           {
             return false;
           }
       };
-      double volume = 0.;
+      // A place of a lattice of n^(dim - 1) over `part` times the box, `beyond` the face.
+      const auto place = [&](unsigned int number, const unsigned int n, const double part, const double beyond) {
+        Point<dim> x;
+        for (unsigned int a = 0; a < dim; ++a)
+          if (a == axis)
+            x[a] = face % 2 == 0 ? grid.lower_corner[a] - beyond * box[a] : grid.upper_corner[a] + beyond * box[a];
+          else
+            {
+              x[a] = grid.lower_corner[a] + box[a] * (0.5 + part * ((number % n + 0.5) / n - 0.5));
+              number /= n;
+            }
+        return x;
+      };
+      for (unsigned int i = 0; i < Utilities::pow(n_oblique, dim - 1) && !is_open; ++i)
+        if (is_inside(place(i, n_oblique, oblique, lengths)))
+          return 0.;
+      unsigned int n_inside = 0;
       for (unsigned int line = 0; line < Utilities::pow(n_lines, dim - 1); ++line)
         {
-          Point<dim> x;
-          double width = 1.; // of the part of the face around the line
-          for (unsigned int a = 0, rest = line; a < dim; ++a)
-            if (a != axis)
-              {
-                x[a] = grid.lower_corner[a] + box[a] * (rest % n_lines + 0.5) / n_lines;
-                width *= box[a] / n_lines;
-                rest /= n_lines;
-              }
-          const auto place = [&](const double beyond) {
-            x[axis] = face % 2 == 0 ? grid.lower_corner[axis] - beyond : grid.upper_corner[axis] + beyond;
-            return x;
-          };
           bool is_endless = false;
           for (double beyond = lengths; beyond < 1e6 && !is_endless; beyond *= 3.7)
-            is_endless = is_inside(place(beyond * box[axis]));
+            is_endless = is_inside(place(line, n_lines, 1., beyond));
           for (unsigned int i = 0; i < n_places && !is_endless; ++i)
-            {
-              const double part = lengths * (i + 0.5) / n_places;
-              if (is_inside(place(part * box[axis])))
-                volume += width * lengths * box[axis] / n_places;
-            }
+            if (const Point<dim> x = place(line, n_lines, 1., lengths * (i + 0.5) / n_places); is_inside(x))
+              n_inside += ground == nullptr || ground->is_open(x);
         }
+      double volume = lengths * n_inside / n_places;
+      for (unsigned int a = 0; a < dim; ++a)
+        volume *= a == axis ? box[a] : box[a] / n_lines;
       return volume;
     }
 
 
     /// Regions that end beyond the box, so that less is filled than was asked for. Collective.
+    /// @param walls of what fills the region
     /// @param filled volume of the points, m^3 (2D: m^2)
     /// @param entry entry and value, for the message
     template <int dim>
     void add_cut_region(const Parameters &parameters,
                         const Region<dim> &region,
+                        const std::vector<Wall> &walls,
                         const LevelSet<dim> *ground,
                         const double filled,
                         const EntryValue &entry,
@@ -196,7 +204,8 @@ namespace scree
       constexpr double least_part = 0.005; // of what is filled
       const std::string unit      = dim == 2 ? " m^3/m" : " m^3";
       for (unsigned int face = 0; face < 2 * dim; ++face)
-        if (const double beyond = volume_beyond<dim>(region, parameters.grid, face, ground);
+        if (const double beyond =
+                volume_beyond<dim>(region, parameters.grid, face, walls[face].holds == Wall::Holds::nothing, ground);
             beyond > least_part * filled)
           remarks.push_back("Unusual value: " +
                             entry_message(entry,
@@ -269,6 +278,7 @@ namespace scree
           continue;
         add_cut_region<dim>(parameters,
                             soil[i].template places<dim>(),
+                            parameters.boundaries.walls(dim),
                             ground,
                             volume,
                             { body->name, "Region", seeding.region },
@@ -292,6 +302,7 @@ namespace scree
           const bool is_reservoir        = !entries.reservoir_level.empty();
           add_cut_region<dim>(parameters,
                               part.region,
+                              parameters.water_boundaries.walls(dim),
                               ground,
                               volume,
                               { "Water",

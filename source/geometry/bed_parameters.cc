@@ -157,7 +157,7 @@ namespace scree
                             const double width)
     {
       constexpr double rounding = 1e-3, oblique = -0.9; // of the width; of the product of the normals
-      constexpr unsigned int n_halvings = 20;
+      constexpr unsigned int n_halvings = 30;
       double inside = rounding * width, outside = (1. - rounding) * width;
       const auto is_inside = [&](const double depth) { return !surface.is_open(place - depth * normal); };
       if (is_inside(-inside) || !is_inside(inside) || is_inside(outside))
@@ -203,9 +203,12 @@ namespace scree
           x[a] = lower[a] + std::min(rest % n[a] * spacing, upper[a] - lower[a]);
         const SurfaceView<dim> view = shape->view(x, 2. * half_diagonal);
         is_in_box                   = is_in_box || view.distance <= half_diagonal;
-        if (std::abs(view.distance) > half_diagonal)
+        const Point<dim> foot       = x - view.distance * view.normal;
+        bool is_far                 = std::abs(view.distance) > 1.9 * half_diagonal;
+        for (unsigned int a = 0; a < dim; ++a)
+          is_far = is_far || foot[a] < lower[a] || foot[a] > upper[a];
+        if (is_far)
           continue;
-        const Point<dim> foot = x - view.distance * view.normal;
         if (const double thickness = thickness_behind(*shape, foot, view.normal, cell_size); thickness < thinnest)
           {
             thinnest = thickness;

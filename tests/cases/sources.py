@@ -11,7 +11,7 @@ import sys
 import numpy as np
 from osgeo import gdal, ogr
 
-from scree.results import read_raster, read_statistics
+from scree.results import read_points, read_raster, read_statistics
 
 from case_tools import check, log_of, run
 
@@ -157,7 +157,7 @@ def shifted():
         outline = np.array([(50., 40.), (150., 50.), (130., 130.), (60., 110.)]) + corner
         pathlib.Path("outline.csv").write_text("".join("%.17g, %.17g\n" % tuple(place) for place in outline), encoding="utf-8")
     case = {**SLIDE, **THICKNESS, "Soil/Outline": "../outline.csv", "End time": 0.2, "Mesh/Lower corner": "10, 10, 80", "Mesh/Upper corner": "190, 150, 230",
-            "Bed/Type": "friction", "Bed/Friction angle": 25}
+            "Bed/Type": "friction", "Bed/Friction angle": 25, "Output/Graphics": "points and grid"}
     far = (2.6e6, 1.2e6)
     system = 'PROJCS["CH1903+_LV95"]'
     pathlib.Path("bed.prj").unlink(missing_ok=True)  # of the run before
@@ -177,6 +177,16 @@ def shifted():
     check((moved / "maps" / "largest_thickness.prj").read_text(encoding="utf-8") == system, "system of coordinates")
     check(not (near / "maps" / "largest_thickness.prj").exists(), "system of coordinates from nowhere")
     check("Local origin: x = 0, y = 0 is 2600000, 1200000 m" in log_of(moved), "log")
+    # Without it, places in pictures are exact, too.
+    corners = {f"Mesh/{name}": "%.9g, %.9g, %.9g" % tuple(np.add(place, (*far, 0))) for name, place in (("Lower corner", (10, 10, 80)), ("Upper corner", (190, 150, 230)))}
+    national = run("national", {**case, **corners})
+    for collection, time in (("points", None), ("points", 0.), ("grid", None)):
+        here, there = (read_points(results, time, collection).positions for results in (near, national))
+        there = there - [*far, 0.]
+        order = [np.lexsort(np.round(places, 3).T) for places in (here, there)]
+        largest = np.max(np.abs(here[order[0]] - there[order[1]]))
+        print(f"{collection}: places differ by {largest:.1e} m")
+        check(largest <= 1e-3, f"{collection}: places differ by {largest} m")
 
 
 globals()[sys.argv[3]]()
