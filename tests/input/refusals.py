@@ -76,13 +76,13 @@ QUESTIONED = {
     "a law that is not chosen is not asked": ({**INSTANT, **COULOMB, "Soil/Linear elastic/Young's modulus": 20}, ["this entry has no effect"]),
     "soil and water that the top cuts off": (
         {**INSTANT, **SOIL, "Soil/Region": "x < 0.5 && y < 1.3", "Water/Region": "x > 0.5 && y < 1.5"},
-        ['entry "Region" = x < 0.5 && y < 1.3: the box cuts it off. 0.15625 m^3/m lie beyond the face Top of the box, and 0.5 m^3/m in it are filled.',
+        ['entry "Region" = x < 0.5 && y < 1.3: the box cuts it off. 0.150391 m^3/m lie beyond the face Top of the box, and 0.5 m^3/m in it are filled.',
          'subsection Water, entry "Region" = x > 0.5 && y < 1.5: the box cuts it off. 0.25 m^3/m lie beyond the face Top']),
     "a layer that ends beyond a closed wall": (
         {**INSTANT, **SOIL, "Soil/Region": "y < 0.5 && x < 1.5"}, ['0.25 m^3/m lie beyond the face Right of the box, and 0.5 m^3/m in it are filled.']),
     "half spaces, and soil up to the top": ({**INSTANT, **SOIL, "Soil/Region": "x < 0.5 || y < 0.3 + 0.1*sin(20*x)"}, []),
     "a reservoir above the box": ({**INSTANT, **SOIL, "Water/Phreatic surface": 0.5, "Water/Reservoir level": 1.4},
-                                  ['subsection Water, entry "Reservoir level" = 1.4: the box cuts it off. 0.4 m^3/m lie beyond the face Top']),
+                                  ['subsection Water, entry "Reservoir level" = 1.4: the box cuts it off. 0.398438 m^3/m lie beyond the face Top']),
     "a reservoir beside dry soil": ({**INSTANT, **SOIL, "Soil/Region": "x < 0.5 && y < 0.7", "Water/Phreatic surface": 0.2, "Water/Reservoir level": 0.6},
                                     ['entry "Reservoir level" = 0.6: it stands above "Phreatic surface" = 0.2, beside soil with dry pores, for instance at 0.']),
     "a reservoir at the level of the water table": ({**INSTANT, **SOIL, "Soil/Region": "x < 0.5 && y < 0.7", "Water/Phreatic surface": 0.6,
