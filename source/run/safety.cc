@@ -123,13 +123,14 @@ namespace scree
                              bracket.rests,
                              digits + 1,
                              bracket.fails));
-        folder.log("Set by      " +
-                   (failed_by_displacement
-                        ? "\"Displacement\": beyond the factor soil moved by " + number_text(safety.displacement) +
-                              " H before it came to rest. Compare a "
-                              "larger one."
-                        : std::string("rest: beyond the factor soil did not come to rest, whatever "
-                                      "\"Displacement\" is.")));
+        folder.log(
+            "Set by      " +
+            (failed_by_displacement
+                 ? "\"Displacement\" = " + number_text(safety.displacement) +
+                       ": the trial beyond the factor ended there, still in motion. A larger value shows whether it "
+                       "comes to rest."
+                 : std::string("rest: beyond the factor the soil did not come to rest in time, and moved less than "
+                               "\"Displacement\".")));
         folder.log("Results     " + path +
                    ": safety.csv; rests and fails, the trials beside the factor, with solution/points.pvd");
         return End::complete;
