@@ -56,10 +56,12 @@ def copy_mathjax(app):
             shutil.copyfile(file, target)
 
 
-def keep_beside_contents(_, name, source):
-    """Pages that their list links to and that do not stand in the contents: those of the studies, which scree-study writes."""
+def place_pages(_, name, source):
+    """Studies, which scree-study writes, stand in their list and not in the contents; pages for developers are not searched."""
     if name.startswith("studies/") and name != "studies/pages/README":
         source[0] = "---\norphan: true\n---\n\n" + source[0]
+    if name.startswith("developer/"):
+        source[0] = "---\nnosearch: true\n---\n\n" + source[0]
 
 
 def hand_out_files(app, tree):
@@ -81,6 +83,6 @@ def hand_out_files(app, tree):
 
 def setup(app):
     app.connect("builder-inited", copy_mathjax)
-    app.connect("source-read", keep_beside_contents)
+    app.connect("source-read", place_pages)
     # Before Sphinx collects the files of a page, which it does with priority 500.
     app.connect("doctree-read", hand_out_files, priority=100)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/advice/advise.h>
+#include <scree/case/case_checks.h>
 
 #include <unistd.h>
 
@@ -314,7 +315,7 @@ namespace scree
       GridParameters grid;                  ///< box and cell size
       double accuracy      = 0;             ///< relative error for which cells are recommended
       double settling_time = 0;             ///< s, at most
-      unsigned int n_ranks = 1;             ///< ranks that --advise runs on
+      unsigned int n_ranks = 1;             ///< ranks of the run
       unsigned int coarser = 1; ///< how many times as wide the cells were in the first steps that were taken
       double pilot_coarser = 0; ///< and in the pilot; 0: there was none
       std::string pilot_fault;  ///< what kept it from its end
@@ -446,7 +447,10 @@ namespace scree
       writer.line("output", cost.output_seconds, "core-seconds");
       writer.line("run", core_time(cost.seconds()));
       if (advice.n_ranks > 1)
-        writer.line("on " + std::to_string(advice.n_ranks) + " ranks", cost.seconds() / advice.n_ranks, "s");
+        writer.line("on " + std::to_string(advice.n_ranks) + " ranks, if shared out evenly",
+                    rounded(cost.seconds() / advice.n_ranks) + " s, " + megabytes(advice.memory(scene.cell_size)) +
+                        ", " + rounded(scene.n_points() / advice.n_ranks) +
+                        " points each (ten thousand keep a rank busy)");
       if (advice.settling_time > 0)
         writer.line("settling, at most", core_time(cost.step_seconds / scene.end_time * advice.settling_time));
     }
@@ -586,7 +590,11 @@ namespace scree
 
 
   template <int dim>
-  void advise(Parameters &parameters, const double accuracy, const MPI_Comm communicator, std::ostream &out)
+  void advise(Parameters &parameters,
+              const double accuracy,
+              const unsigned int n_ranks,
+              const MPI_Comm communicator,
+              std::ostream &out)
   {
     constexpr double seconds_of_steps = 0.5;
     for (const InflowParameters &inflow : parameters.inflows)
@@ -603,7 +611,7 @@ namespace scree
     advice.schedule.time_step = parameters.time_step;
     advice.schedule.output    = parameters.output;
     advice.settling_time      = parameters.settling.maximum_time;
-    advice.n_ranks            = Utilities::MPI::n_mpi_processes(communicator);
+    advice.n_ranks            = n_ranks > 0 ? n_ranks : Utilities::MPI::n_mpi_processes(communicator);
     advice.coarser            = coarsening<dim>(parameters, communicator);
     advice.memory             = [&](const double cell_size) {
       const GridParameters of_last_run = std::exchange(parameters.grid, advice.grid);
@@ -626,6 +634,12 @@ namespace scree
       advice.seen               = measure_first_steps(simulation, seconds_of_steps, communicator);
       advice.scene              = with_cell_size(seeded, advice.grid.cell_size);
       advice.seen               = with_cell_size(advice.seen, seeded, advice.grid.cell_size);
+      const Scene<dim> &scene   = simulation.state_of_scene();
+      const auto of_first_steps = std::exchange(parameters.grid, advice.grid);
+      for (const std::string &remark :
+           remarks_on(parameters, scene.bodies, scene.water, scene.ground.get(), communicator))
+        out << remark << '\n';
+      parameters.grid = of_first_steps;
     }
     const double seen = advice.seen.duration();
     if (seen < (1. - 1e-9) * advice.scene.end_time)
@@ -642,7 +656,7 @@ namespace scree
         }
       catch (const std::exception &fault)
         {
-          if (advice.n_ranks > 1) // It may be on one rank only.
+          if (Utilities::MPI::n_mpi_processes(communicator) > 1) // It may be on one rank only.
             throw;
           advice.pilot_fault = fault.what();
         }

@@ -272,6 +272,10 @@ namespace scree
                                  ratio + ", below " + drained + ", but its water must move, too" };
     if (!(groups.drainage > thresholds::undrained_above))
       return { Regime::coupled, "coupled", ratio + ", between " + drained + " and " + undrained };
+    if (groups.time_factor < thresholds::consolidates_above && !scene.water_fills_soil)
+      return { Regime::coupled,
+               "coupled",
+               ratio + ", above " + undrained + ", but its water outside the soil moves, too" };
     if (groups.time_factor < thresholds::consolidates_above)
       return { Regime::undrained,
                "undrained",
@@ -402,25 +406,10 @@ namespace scree
 
   double cell_size_for(const GridParameters &grid, const double height, const double cells)
   {
-    const double largest = height / cells;
-    std::vector<double> lengths;
-    for (unsigned int a = 0; a < grid.lower_corner.size(); ++a)
-      lengths.push_back(grid.upper_corner[a] - grid.lower_corner[a]);
-    const double shortest = *std::min_element(lengths.begin(), lengths.end());
+    const double largest = height / cells, present = grid.cell_size;
     // The cell size at hand divides the box: at worst a whole part of it does.
-    const double present = grid.cell_size;
-    const unsigned int n = std::lround(shortest / present);
-    for (unsigned int i = std::max(1., std::ceil(shortest / largest * (1. - 1e-9)));
-         i <= n * std::ceil(present / largest);
-         ++i)
-      {
-        const double size = shortest / i;
-        if (std::all_of(lengths.begin(), lengths.end(), [&](const double length) {
-              return std::abs(length / size - std::round(length / size)) < 1e-6;
-            }))
-          return size;
-      }
-    return present / std::ceil(present / largest);
+    const double at_worst = present / std::ceil(present / largest), size = grid.size_that_divides(largest, at_worst);
+    return size > 0. ? size : at_worst;
   }
 
 

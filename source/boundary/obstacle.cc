@@ -47,46 +47,6 @@ namespace scree
                 : nullptr)
       , surface(grid, *level_set, is_moving ? SurfaceMotion::rigid : SurfaceMotion::none)
   {
-    if (!is_moving) // What moves may come in later.
-      require_in_box(parameters);
-  }
-
-
-  template <int dim>
-  void Obstacle<dim>::require_in_box(const ObstacleParameters &parameters) const
-  {
-    const MPI_Comm communicator   = grid.communicator();
-    const Tensor<1, dim> diagonal = grid.upper_corner() - grid.lower_corner();
-    constexpr double most_places  = 1e5;
-    const unsigned int n_ranks    = Utilities::MPI::n_mpi_processes(communicator);
-    const unsigned int rank       = Utilities::MPI::this_mpi_process(communicator);
-    std::array<unsigned int, dim> n{};
-    double spacing = grid.cell_size(), n_places = 0;
-    for (;; spacing *= 2.)
-      {
-        n_places = 1;
-        for (unsigned int a = 0; a < dim; ++a)
-          n_places *= n[a] = 1 + static_cast<unsigned int>(std::ceil(diagonal[a] / spacing - 1e-6));
-        if (n_places <= most_places)
-          break;
-      }
-    bool is_inside = false;
-    on_all_ranks(communicator, [&] {
-      for (unsigned int i = rank; i < n_places && !is_inside; i += n_ranks)
-        {
-          Point<dim> x = grid.lower_corner();
-          for (unsigned int a = 0, rest = i; a < dim; rest /= n[a], ++a)
-            x[a] += std::min(rest % n[a] * spacing, diagonal[a]);
-          // Between the places, half a diagonal away from one at most, the obstacle may be thin.
-          const double half_diagonal = 0.5 * std::sqrt(dim) * spacing;
-          is_inside                  = level_set->view(x, 2. * half_diagonal).distance <= half_diagonal;
-        }
-    });
-    const auto [entry, value] = parameters.surface.geometry();
-    require_entry(Utilities::MPI::max(int(is_inside), communicator) == 1,
-                  { parameters.surface.subsection, entry, value },
-                  "no part of the obstacle lies in the box of subsection Mesh. Move it (it is where the expression is "
-                  "negative), or make the box larger.");
   }
 
 

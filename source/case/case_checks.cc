@@ -22,6 +22,22 @@ namespace scree
     }
 
 
+    void check_place(const Parameters &parameters, const BedParameters &surface, const bool has_to_be_in_box)
+    {
+      const GridParameters &grid = parameters.grid;
+      const auto &lower = grid.lower_corner, &upper = grid.upper_corner;
+      try
+        {
+          parameters.dimension == 2 ? surface.check_place<2>(lower, upper, grid.cell_size, has_to_be_in_box)
+                                    : surface.check_place<3>(lower, upper, grid.cell_size, has_to_be_in_box);
+        }
+      catch (const ValueError &error) // its expression
+        {
+          throw EntryError(error.what());
+        }
+    }
+
+
     void check_inflow(const Parameters &parameters, const InflowParameters &inflow)
     {
       const BodyParameters *body     = parameters.find_body(inflow.body);
@@ -186,10 +202,14 @@ namespace scree
     parameters.boundaries.check(parameters.dimension);
     parameters.bed.check(parameters.dimension);
     check_type_for_water(parameters, parameters.bed);
+    if (parameters.bed.geometry().first == "Level set expression") // Others have ground down to the bottom.
+      check_place(parameters, parameters.bed, false);
     for (const ObstacleParameters &obstacle : parameters.obstacles)
       {
         obstacle.check(parameters.dimension);
         check_type_for_water(parameters, obstacle.surface);
+        if (obstacle.surface.is_set())
+          check_place(parameters, obstacle.surface, !obstacle.is_moving()); // What moves may come in later.
       }
     check_what_enters(parameters);
     parameters.surface_load.check(parameters.grid, parameters.dimension);
@@ -265,40 +285,6 @@ namespace scree
     }
 
 
-    /// Water in units other than SI.
-    void add_unusual_water(const Parameters &parameters, std::vector<std::string> &remarks)
-    {
-      constexpr unsigned int n_times = 1000;
-      double rain                    = 0.; // largest rate of its time
-      if (parameters.rain.is_set())
-        {
-          const auto rate = parse_expression<1>(entry_name("Rain", "Rate"), parameters.rain.rate, 1);
-          for (unsigned int i = 0; i <= n_times; ++i)
-            rain = std::max(rain, rate->value(dealii::Point<1>(i * parameters.end_time / n_times)));
-        }
-      const auto ask = [&](const std::string &subsection,
-                           const std::string &entry,
-                           const double value,
-                           const double lowest,
-                           const double highest,
-                           const std::string &unit) {
-        if (value != 0. && !(value >= lowest && value <= highest))
-          remarks.push_back("Unusual value: " +
-                            entry_message({ subsection, entry, number_text(value) }, "the unit is " + unit + "."));
-      };
-      constexpr char conductivity_unit[] = "m/s (1 m/d = 1.16e-5 m/s)";
-      const WaterParameters &water       = parameters.water;
-      for (const BodyParameters &body : parameters.bodies)
-        ask(body.name, "Hydraulic conductivity", body.conductivity, 1e-13, 1., conductivity_unit);
-      ask("Water", "Density", water.density, 500., 2e3, "kg/m^3 (1 g/cm^3 = 1e3 kg/m^3)");
-      ask("Water", "Hydraulic conductivity", water.conductivity, 1e-13, 1., conductivity_unit);
-      ask("Water", "Grain diameter", water.grain_diameter, 1e-7, 3., "m (1 mm = 1e-3 m)");
-      ask("Water", "Viscosity", water.viscosity, 1e-4, 1e3, "Pa s (1 mPa s = 1e-3 Pa s)");
-      ask("Water", "Bulk modulus", water.bulk_modulus, 1e4, 1e10, "Pa (1 kPa = 1e3 Pa, 1 MPa = 1e6 Pa)");
-      ask("Rain", "Rate", rain, 1e-10, 0.1, "m/s (1 mm/h = 2.78e-7 m/s)");
-    }
-
-
     /// A water table more than a cell above all soil. Collective.
     template <int dim>
     void add_table_above_soil(const Parameters &parameters,
@@ -329,10 +315,14 @@ namespace scree
 
 
   template <int dim>
-  std::vector<std::string>
-  remarks_on(const Parameters &parameters, const std::list<SoilBody<dim>> &bodies, const MPI_Comm communicator)
+  std::vector<std::string> remarks_on(const Parameters &parameters,
+                                      const std::list<SoilBody<dim>> &bodies,
+                                      const std::list<WaterPhase<dim>> &water,
+                                      const LevelSet<dim> *ground,
+                                      const MPI_Comm communicator)
   {
     std::vector<std::string> remarks = parameters.unread_laws;
+    add_unusual_values(parameters, bodies, water, ground, communicator, remarks);
     for (const BodyParameters &body : parameters.bodies)
       add_unresolved_length(body, parameters.grid.cell_size, remarks);
     const auto walls = parameters.boundaries.walls(3);
@@ -346,7 +336,6 @@ namespace scree
       {
         for (const BodyParameters &body : parameters.bodies)
           add_opening_soil(body, remarks);
-        add_unusual_water(parameters, remarks);
         add_table_above_soil(parameters, bodies, communicator, remarks);
       }
     return remarks;
@@ -472,73 +461,5 @@ namespace scree
                           ? " A copy of the run folder with no checkpoint but step-0 goes on from the release."
                           : "") +
                      others + (others.empty() ? "" : "."));
-  }
-
-
-  std::string removed_entry_remedy(const std::string &subsection, const std::string &entry, const std::string &value)
-  {
-    const auto measured = [](const std::string &section) {
-      return " (measurements: doc/developer/development_log.md#" + section + ").";
-    };
-    const std::string pressure = measured("choices-for-the-pressure-that-failed");
-    const std::string transfer = measured("removed-transfers"), step = measured("variational-pressure-step"),
-                      unused = measured("removed-entries");
-    // Entries, values of entries that are still there, or subsections; * is the name of a body or surface.
-    const std::map<std::string, std::string> remedies{
-      { "Water/Pressure/Divergence", "The divergence is always that of \"expanded\". Remove the line" + pressure },
-      { "Water/Pressure/Free surface",
-        "The surface is always found inside the cells, as with \"distance\". Remove the line" + pressure },
-      { "Water/Pressure/Splitting",
-        "Pressure and drag are always solved together, as with \"drag in correction\". Remove the line" + pressure },
-      { "Water/Pressure/Step", "The step is always that of \"variational\". Remove the line" + step },
-      { "Water/Pressure/Previous pressure",
-        "The pressure of the points always counts with its gradient. Remove the line" + step },
-      { "Water/Pressure/Fading", "The pressure makes no energy that had to fade. Remove the line" + step },
-      { "Water/Pressure/Projection", "The pressure needs no projection. Remove the line" + step },
-      { "Settling/Damping rate", "Settling stops all where the kinetic energy is largest. Remove the line." },
-      { "Settling/Kinetic energy", "Settling ends by \"Unbalanced force\". Remove the line, or write that entry." },
-      { "Transfer/Method = auto", "Remove the line, or write AFLIP, which is the default" + transfer },
-      { "Transfer/Method = PIC", "Write FLIP, which with \"PIC rate = 1e9\" is the same" + transfer },
-      { "Transfer/Stress update",
-        "The strain is always that of \"USL\". Remove the line, and a \"Courant number\" above 0.6" + transfer },
-      { "Mesh/Basis = quadratic", "Write spline, which is the default" + transfer },
-      { "Mesh/Box",
-        "The box follows from the raster of the bed if both corners are left out. Remove the line" + unused },
-      { "Mesh/Fine cells", "Cells are fine around the points. Remove the line" + unused },
-      { "Transfer/Method = APIC", "Write TPIC, which has a smaller error in the same scenes" + unused },
-      { "Base motion/Scale", "Write the record in m/s^2" + unused },
-      { "Bed/Friction angles", "Write one \"Friction angle\"" + unused },
-      { "*/Closed surface", "Write a \"Level set expression\", or \"Region\" for a body" + unused },
-      { "*/Lower surface", "Write a subsection Bed with this raster" + unused },
-      { "*/Jitter", "Points start on a lattice. Remove the line" + unused },
-      { "Water/Jitter", "Points start on a lattice. Remove the line" + unused },
-      { "*/Grain diameter", "Write \"Hydraulic conductivity\", or the diameter in subsection Water" + unused },
-      { "Water/Fluidisation porosity", "Soil separates by its law. Remove the line" + unused },
-      { "Water/Phreatic surface file", "Write the elevation as expression \"Phreatic surface\"" + unused },
-      { "Water/Suspension", "Grains add no viscosity, as their laws missed the measurements. Remove it" + unused },
-      { "Rain/Region", "Rain falls on all of the soil. Remove the line" + unused },
-      { "Settling/Type", "The pore pressure is always held, as with \"drained\". Remove the line" + unused },
-      { "Safety/Damping rate", "The rate is 2 sqrt(gravity/height of the soil). Remove the line" + unused },
-      { "Safety/Maximum time", "A trial takes at most 40 sqrt(height of the soil/gravity). Remove the line" + unused },
-      { "Output/Checkpoint failure", "The run stops, and --resume continues it. Remove the line" + unused },
-      { "*/Nor-Sand/Critical friction angle", "Write M = 6 sin/(3 - sin) as \"Critical stress ratio M\"" + unused },
-      { "*/Nor-Sand/Friction angle kind", "Write \"Critical stress ratio M\". Remove the line" + unused },
-      { "*/Nor-Sand/Grain diameter", "Only Mohr-Coulomb has inertial friction. Remove the line" + unused },
-      { "*/Nor-Sand/Reference inertial number", "Only Mohr-Coulomb has inertial friction. Remove the line" + unused },
-      { "*/Nor-Sand/Friction increase", "Only Mohr-Coulomb has inertial friction. Remove the line" + unused },
-      { "*/Nor-Sand (Jefferies-Been)/Critical line",
-        "The critical line is straight in ln p. Remove the line" + unused },
-      { "*/Nor-Sand (Jefferies-Been)/Curve void ratio", "Write \"Critical void ratio\"" + unused },
-      { "*/Nor-Sand (Jefferies-Been)/Curve coefficient", "Write \"Compression index\"" + unused },
-      { "*/Nor-Sand (Jefferies-Been)/Curve exponent",
-        "The critical line is straight in ln p. Remove the line" + unused },
-    };
-    const std::string path = subsection_path(subsection, entry);
-    const bool is_in_body  = path.rfind("Water/", 0) != 0;
-    for (const std::string &name :
-         { path, path + " = " + value, is_in_body ? '*' + path.substr(std::min(path.find('/'), path.size())) : "" })
-      if (const auto found = remedies.find(name); found != remedies.end())
-        return "It was removed after version 0.9. " + found->second;
-    return "";
   }
 } // namespace scree

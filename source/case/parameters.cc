@@ -24,10 +24,16 @@ namespace scree
       const auto largest                = [&](const std::string &entry, const std::string &file) {
         return read_raster(file, entry_name(body.name, entry), bed.map_origin).range().second;
       };
+      if (source.has_one_thickness())
+        return number_of(source.thickness);
       if (!source.thickness.empty())
         return largest("Thickness", source.thickness);
       if (!source.upper_surface.empty())
         return std::max(0., largest("Upper surface", source.upper_surface) - highest);
+      if (!source.outline.empty() && !body.seeding.has_expression())
+        return read_outline(source.outline, entry_name(body.name, "Outline"), bed.map_origin)
+            .range_of_thickness()
+            .second;
       return 0.25 * relief + 10. * cell_size;
     }
 
@@ -67,7 +73,7 @@ namespace scree
           };
       const auto compare_raster =
           [&](const std::string &subsection, const std::string &entry, const std::string &file) {
-            if (file.empty())
+            if (file.empty() || !std::isnan(number_of(file)))
               return;
             const std::string name = entry_name(subsection, entry), own = read_raster_system(file, name);
             if (system.empty() && !own.empty())
@@ -167,14 +173,9 @@ namespace scree
         ParameterHandler all;
         declare(all);
         declare_water(all);
-        file.check(
-            all,
-            "scree --print-parameters lists all of them.",
-            [&](const std::string &subsection) {
-              const std::string removed = removed_entry_remedy("", subsection, "");
-              return removed.empty() ? unlisted_body(subsection) : removed;
-            },
-            removed_entry_remedy);
+        file.check(all, "scree --print-parameters lists all of them.", [&](const std::string &subsection) {
+          return unlisted_body(subsection);
+        });
         if (!has_water)
           check_dry();
         declare(handler);
@@ -365,16 +366,20 @@ namespace scree
     for (BodyParameters &body : bodies)
       {
         SeedingParameters &seeding = body.seeding;
-        seeding.source.check(
-            body.name, dimension, has_water && !(water.has_levels() && water.reservoir_level.empty()), bed.is_set());
+        seeding.source.check(body.name, dimension, has_water && !water.region_outside(dimension).empty(), bed.is_set());
         if (!seeding.source.is_set())
           continue;
         try
           {
             if (!ground)
               ground = make_bed<3>(bed, grid.lower_corner, grid.upper_corner, 1.);
-            seeding.map = std::make_shared<const SourceMap>(
-                seeding.source, body.name, ground, bed.map_origin, grid.lower_corner, grid.upper_corner);
+            seeding.map = std::make_shared<const SourceMap>(seeding.source,
+                                                            body.name,
+                                                            seeding.has_expression(),
+                                                            ground,
+                                                            bed.map_origin,
+                                                            grid.lower_corner,
+                                                            grid.upper_corner);
           }
         catch (const ValueError &error) // the bed's expression
           {

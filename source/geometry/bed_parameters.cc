@@ -146,6 +146,98 @@ namespace scree
   const std::string ObstacleParameters::prefix = "Obstacle ";
 
 
+  namespace
+  {
+    /// How thick a body is behind a place of its surface, m: `width` if that much or more, or if the surface on the
+    /// other side is oblique to this one, as beside an edge.
+    template <int dim>
+    double thickness_behind(const LevelSet<dim> &surface,
+                            const Point<dim> &place,
+                            const Tensor<1, dim> &normal,
+                            const double width)
+    {
+      constexpr double rounding = 1e-3, oblique = -0.9; // of the width; of the product of the normals
+      constexpr unsigned int n_halvings = 30;
+      double inside = rounding * width, outside = (1. - rounding) * width;
+      const auto is_inside = [&](const double depth) { return !surface.is_open(place - depth * normal); };
+      if (is_inside(-inside) || !is_inside(inside) || is_inside(outside))
+        return width;
+      for (unsigned int i = 0; i < n_halvings; ++i)
+        {
+          const double middle                    = 0.5 * (inside + outside);
+          (is_inside(middle) ? inside : outside) = middle;
+        }
+      const Point<dim> behind = place - outside * normal;
+      return surface.view(behind, width).normal * normal < oblique ? outside : width;
+    }
+  } // namespace
+
+
+  template <int dim>
+  void BedParameters::check_place(const std::vector<double> &lower,
+                                  const std::vector<double> &upper,
+                                  const double cell_size,
+                                  const bool has_to_be_in_box) const
+  {
+    constexpr double most_places = 1e5;
+    const auto shape             = make_bed<dim>(*this, lower, upper, cell_size);
+    std::array<unsigned int, dim> n{};
+    double spacing = cell_size, n_places = 0;
+    for (;; spacing *= 2.)
+      {
+        n_places = 1;
+        for (unsigned int a = 0; a < dim; ++a)
+          n_places *= n[a] = 1 + static_cast<unsigned int>(std::ceil((upper[a] - lower[a]) / spacing - 1e-6));
+        if (n_places <= most_places)
+          break;
+      }
+    // Between the places, half a diagonal away from one at most, the obstacle may be thin.
+    const double half_diagonal = 0.5 * std::sqrt(dim) * spacing;
+    bool is_in_box             = false;
+    double thinnest            = cell_size;
+    Point<dim> where;
+    for (unsigned int i = 0; i < n_places; ++i)
+      {
+        Point<dim> x;
+        for (unsigned int a = 0, rest = i; a < dim; rest /= n[a], ++a)
+          x[a] = lower[a] + std::min(rest % n[a] * spacing, upper[a] - lower[a]);
+        const SurfaceView<dim> view = shape->view(x, 2. * half_diagonal);
+        is_in_box                   = is_in_box || view.distance <= half_diagonal;
+        const Point<dim> foot       = x - view.distance * view.normal;
+        bool is_far                 = std::abs(view.distance) > 1.9 * half_diagonal;
+        for (unsigned int a = 0; a < dim; ++a)
+          is_far = is_far || foot[a] < lower[a] || foot[a] > upper[a];
+        if (is_far)
+          continue;
+        if (const double thickness = thickness_behind(*shape, foot, view.normal, cell_size); thickness < thinnest)
+          {
+            thinnest = thickness;
+            where    = foot;
+          }
+      }
+    const auto [entry, value] = geometry();
+    require_entry(is_in_box || !has_to_be_in_box,
+                  { subsection, entry, value },
+                  "no part of the obstacle lies in the box of subsection Mesh. Move it (it is where the expression is "
+                  "negative), or make the box larger.");
+    require_entry(thinnest == cell_size,
+                  { subsection, entry, value },
+                  "at " + number_text(where) + " m it is " + number_text(thinnest) + " m thick, less than a cell of " +
+                      number_text(cell_size) +
+                      " m, and soil passes through it. Write a thicker one, of three cells for a good load on it, or "
+                      "smaller cells.");
+  }
+
+  template void BedParameters::check_place<2>(const std::vector<double> &,
+                                              const std::vector<double> &,
+                                              const double,
+                                              const bool) const;
+  template void BedParameters::check_place<3>(const std::vector<double> &,
+                                              const std::vector<double> &,
+                                              const double,
+                                              const bool) const;
+
+
   template <int dim>
   bool ExpressionSurface<dim>::is_open(const Point<dim> &x) const
   {

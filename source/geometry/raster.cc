@@ -295,8 +295,7 @@ namespace scree
     std::ifstream open_text(const std::string &file, const std::string &name)
     {
       if (const std::string value = std::filesystem::path(file).filename(); !std::isnan(number_of(value)))
-        throw EntryError(name + "a number is no raster. From an outline, gdal_rasterize -burn " + value +
-                         " -tr SIZE SIZE OUTLINE FILE.tif makes one.");
+        throw EntryError(name + "a number is no raster. Write the path of a GeoTIFF, or of an ESRI ASCII grid.");
       return open_file(file, name);
     }
 
@@ -567,19 +566,31 @@ namespace scree
     }
 
 
-    /// Areas of a file in a vector format of GDAL, those of multi-polygons one by one. Throws EntryError if there is
-    /// none or anything else.
-    std::vector<Rings> read_polygons(const std::string &file, const std::string &name)
+    /// Areas of a file in a vector format of GDAL, those of multi-polygons one by one, and the attribute `thickness` of
+    /// each, m; no thickness if none has it. Throws EntryError if there is none or anything else.
+    std::pair<std::vector<Rings>, std::vector<double>> read_polygons(const std::string &file, const std::string &name)
     {
       const auto quiet = silence_gdal();
       const auto data  = open(file, name);
       std::vector<Rings> areas;
+      std::vector<double> thickness;
+      bool is_known = false;
       for (const auto &feature : only_layer(*data, name))
         if (const OGRGeometry *geometry = feature->GetGeometryRef(); geometry != nullptr && !geometry->IsEmpty())
-          collect(*geometry, name, areas);
+          {
+            collect(*geometry, name, areas);
+            const int field        = feature->GetFieldIndex("thickness"); // in any case of its letters
+            const std::string text = field >= 0 ? feature->GetFieldAsString(field) : "";
+            is_known               = is_known || !text.empty();
+            thickness.resize(areas.size(), number_of(text));
+          }
       if (areas.empty())
         throw EntryError(name + "it has no polygon. Draw the area that the body occupies.");
-      return areas;
+      for (std::size_t i = 0; is_known && i < areas.size(); ++i)
+        if (!(thickness[i] >= 0.))
+          throw EntryError(name + "the attribute thickness of polygon " + std::to_string(i + 1) +
+                           " is no number from 0 on, in m. Write it for all polygons, or remove the attribute.");
+      return { areas, is_known ? thickness : std::vector<double>() };
     }
 
 
@@ -615,8 +626,9 @@ namespace scree
   } // namespace
 
 
-  Outline::Outline(std::vector<std::vector<Ring>> areas)
+  Outline::Outline(std::vector<std::vector<Ring>> areas, std::vector<double> thickness)
       : areas(std::move(areas))
+      , thickness(std::move(thickness))
       , box(std::make_pair(this->areas.front().front().front(), this->areas.front().front().front()))
   {
     for (const auto &area : this->areas)
@@ -624,7 +636,7 @@ namespace scree
   }
 
 
-  bool Outline::contains(const Point<2> &x) const
+  double Outline::thickness_at(const Point<2> &x) const
   {
     const auto is_inside = [&x](const Ring &ring) {
       bool result = false; // a ray along x crosses an odd number of edges
@@ -636,9 +648,37 @@ namespace scree
         }
       return result;
     };
-    return box.point_inside(x) && std::any_of(areas.begin(), areas.end(), [&](const auto &area) {
-             return is_inside(area.front()) && std::none_of(area.begin() + 1, area.end(), is_inside);
-           });
+    double largest = -1.;
+    for (std::size_t i = 0; i < areas.size() && box.point_inside(x); ++i)
+      if (const double of_area = thickness.empty() ? 0. : thickness[i];
+          of_area > largest && is_inside(areas[i].front()) &&
+          std::none_of(areas[i].begin() + 1, areas[i].end(), is_inside))
+        largest = of_area;
+    return largest;
+  }
+
+
+  std::pair<double, double> Outline::range_of_thickness() const
+  {
+    if (thickness.empty())
+      return { 0., 0. };
+    const auto [least, largest] = std::minmax_element(thickness.begin(), thickness.end());
+    return { *least, *largest };
+  }
+
+
+  double Outline::area() const
+  {
+    double sum = 0.;
+    for (const auto &rings : areas)
+      for (std::size_t r = 0; r < rings.size(); ++r)
+        {
+          double twice = 0.;
+          for (std::size_t i = 1; i < rings[r].size(); ++i)
+            twice += rings[r][i - 1][0] * rings[r][i][1] - rings[r][i][0] * rings[r][i - 1][1];
+          sum += (r == 0 ? 0.5 : -0.5) * std::abs(twice);
+        }
+    return sum;
   }
 
 
@@ -653,11 +693,11 @@ namespace scree
         return Outline({ { closed_ring(std::move(corners), name, origin) } });
       }
     open_file(file, name);
-    std::vector<Rings> areas = read_polygons(file, name);
+    auto [areas, thickness] = read_polygons(file, name);
     for (std::size_t i = 0; i < areas.size(); ++i)
       for (Outline::Ring &ring : areas[i])
         ring = closed_ring(std::move(ring), name + "polygon " + std::to_string(i + 1) + ", ", origin);
-    return Outline(std::move(areas));
+    return Outline(std::move(areas), std::move(thickness));
   }
 
 

@@ -95,11 +95,12 @@ namespace scree
     // muParser reads "&&y" as "&" and a word "&y".
     const bool blank_missing =
         fault.rfind("Unexpected token \"&", 0) == 0 || fault.rfind("Unexpected token \"|", 0) == 0;
+    const bool has_not = std::regex_search(text, std::regex("!\\s*[^=\\s]")); // muParser has "!=" only
     if (!fault.empty())
-      throw EntryError(where + " = " + text + ": " + fault + ". Write " +
-                       (n_components == 1 ? "an expression" : "expressions, separated by semicolons,") + " of " +
-                       names + (with_time ? ", t" : "") + (blank_missing ? ", with blanks around && and ||" : "") +
-                       ", for instance " + example);
+      throw EntryError(where + " = " + text + ": " + fault + (has_not ? ". In place of !(...) write (...) == 0" : "") +
+                       ". Write " + (n_components == 1 ? "an expression" : "expressions, separated by semicolons,") +
+                       " of " + names + (with_time ? ", t" : "") +
+                       (blank_missing ? ", with blanks around && and ||" : "") + ", for instance " + example);
     return function;
   }
 

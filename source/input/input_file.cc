@@ -378,7 +378,7 @@ namespace scree
     std::vector<NamedFile> result;
     for (Statement &statement : statements)
       if (const CaseEntry *entry = declared.find(statement.path, statement.name);
-          statement.kind == Kind::set && entry &&
+          statement.kind == Kind::set && entry && std::isnan(number_of(statement.value)) &&
           entry->pattern == Patterns::FileName(Patterns::FileName::input).description())
         {
           statement.path_of_file = path_beside(statement.file, statement.value);
@@ -442,8 +442,7 @@ namespace scree
 
   void InputFile::check(const ParameterHandler &prm,
                         const std::string &last_remedy,
-                        const SubsectionRemedy &subsection_remedy,
-                        const EntryRemedy &entry_remedy) const
+                        const SubsectionRemedy &subsection_remedy) const
   {
     const CaseEntries declared(prm);
     const std::vector<Name> subsections = subsections_of(declared);
@@ -463,16 +462,14 @@ namespace scree
             return statement.error(entry_message({ statement.path, statement.name, statement.value }, remedy));
           };
           const CaseEntry *entry = declared.find(statement.path, statement.name);
-          std::string remedy     = entry_remedy ? entry_remedy(statement.path, statement.name, statement.value) : "";
           if (entry == nullptr)
             {
-              if (remedy.empty())
-                remedy = suggestion(declared.all(), statement.path, statement.name);
+              const std::string remedy = suggestion(declared.all(), statement.path, statement.name);
               throw error(std::string("there is no such entry") + (statement.path.empty() ? ". " : " here. ") +
                           (remedy.empty() ? last_remedy : remedy));
             }
           if (!Patterns::pattern_factory(entry->pattern)->match(statement.value))
-            throw error(remedy.empty() ? value_remedy(*entry, statement.value) : "there is no such value. " + remedy);
+            throw error(value_remedy(*entry, statement.value));
         }
   }
 

@@ -400,9 +400,10 @@ namespace scree
       }
     throw EntryError(entry_message(
         { "", "Output directory", run_folder },
-        faults.empty() ? "there is no checkpoint to resume from. Write a \"Checkpoint interval\" in "
-                         "subsection Output and run without --resume first."
-                       : "no checkpoint there is whole." + faults + " Bring the files back, or run without --resume."));
+        faults.empty()
+            ? "there is no checkpoint to resume from: no run in this folder has come to its first one. Run "
+              "without --resume; a \"Checkpoint interval\" in subsection Output, or a stop on request, gives one."
+            : "no checkpoint there is whole." + faults + " Bring the files back, or run without --resume."));
   }
 
 

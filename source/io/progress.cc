@@ -118,8 +118,11 @@ namespace scree
   }
 
 
-  void
-  Progress::conclude(const std::string &how, const double time, const double point_updates, const MPI_Comm communicator)
+  void Progress::conclude(const std::string &how,
+                          const double time,
+                          const double point_updates,
+                          const bool has_maximum,
+                          const MPI_Comm communicator)
   {
     const double total         = clock.wall_time();
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
@@ -140,8 +143,9 @@ namespace scree
         limits += (limits.empty() ? "" : ", ") + formatted(share < 1 ? "%s (below 1 %%" : "%s (%.0f %%", name, share) +
                   (limits.empty() ? " of steps)" : ")");
     folder.log("Limits      time step limited by " + limits);
-    constexpr double most = 50.; // % of the steps
-    if (percent(StepLimit::entry) > most && others > 0.)
+    constexpr double most       = 50.,
+                     most_times = 100.; // % of the steps; with more, other bounds are none, as of still water
+    if (has_maximum && percent(StepLimit::entry) > most && n_steps() < most_times * others)
       folder.log(
           formatted("Warning     'Maximum time step' bounds %.0f %% of the steps: without it the run would have "
                     "taken %.3g times fewer.\n            Write a larger one, or auto, unless results depend on it.",

@@ -4,6 +4,9 @@
 
 #include <deal.II/grid/grid_generator.h>
 
+#include <iomanip>
+#include <sstream>
+
 namespace scree
 {
   using namespace dealii;
@@ -97,6 +100,47 @@ namespace scree
   }
 
 
+  std::vector<double> GridParameters::lengths() const
+  {
+    std::vector<double> lengths;
+    for (unsigned int a = 0; a < lower_corner.size(); ++a)
+      lengths.push_back(upper_corner[a] - lower_corner[a]);
+    return lengths;
+  }
+
+
+  double GridParameters::size_that_divides(const double largest, const double smallest) const
+  {
+    const std::vector<double> all = lengths();
+    const double shortest         = *std::min_element(all.begin(), all.end());
+    constexpr double rounding     = 1e-9;
+    for (double n = std::max(1., std::ceil(shortest / largest * (1. - rounding)));
+         n * smallest <= shortest * (1. + rounding);
+         ++n)
+      if (std::all_of(all.begin(), all.end(), [&](const double length) {
+            return std::abs(length / shortest * n - std::round(length / shortest * n)) < 1e-6;
+          }))
+        return shortest / n;
+    return 0.;
+  }
+
+
+  std::string GridParameters::remedy_for_cells() const
+  {
+    const auto exact_text = [](const double value) { // With these digits it divides the box, too.
+      std::ostringstream text;
+      text << std::setprecision(10) << value;
+      return text.str();
+    };
+    const double size = size_that_divides(1.2 * cell_size, 0.5 * cell_size);
+    std::vector<std::string> corner;
+    for (unsigned int a = 0; a < upper_corner.size(); ++a)
+      corner.push_back(exact_text(lower_corner[a] + cell_size * std::max(1., std::round(lengths()[a] / cell_size))));
+    return "Write " + (size > 0. ? exact_text(size) + ", which divides all its lengths, or " : "") +
+           "\"Upper corner\" = " + boost::algorithm::join(corner, ", ") + '.';
+  }
+
+
   void GridParameters::check(const unsigned int dim) const
   {
     for (const auto &[name, corner] :
@@ -118,8 +162,7 @@ namespace scree
         require_entry(std::abs(cells - std::round(cells)) < 1e-6 && std::round(cells) >= 1,
                       { "Mesh", "Cell size", cell_size },
                       "it does not divide the box: " + number_text(length) + " m along " + axis + " are " +
-                          number_text(cells) + " cells. Try " + number_text(length / std::max(1., std::round(cells))) +
-                          ", or move a corner.");
+                          number_text(cells) + " cells. " + remedy_for_cells());
         n_cells *= cells;
       }
     constexpr double most_cells = 1e9; // beyond the memory of any machine this runs on

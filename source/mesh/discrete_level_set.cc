@@ -131,35 +131,6 @@ namespace scree
 
 
   template <int dim>
-  std::optional<Point<dim>> DiscreteLevelSet<dim>::thin_place() const
-  {
-    const double width = grid.cell_size();
-    for (const auto &cell : grid.fine_cells().cells())
-      {
-        if (is_moving() || !grid.fine_cells().is_owned(cell) || !is_near(cell.index))
-          continue;
-        const SurfaceView<dim> *of_cell = &corners[std::size_t(entry_of_cell[cell.index]) * n_of_cell];
-        for (unsigned int v = 0; v < n_vertices; ++v)
-          if (const double distance = of_cell[v].distance; distance < 0. && -distance < width)
-            {
-              CellPlace<dim> place = cell.place;
-              for (unsigned int a = 0; a < dim; ++a)
-                place[a] += v >> a & 1;
-              const Point<dim> x = grid.fine_cells().box().corner(place);
-              if (surface.is_open(x - width * of_cell[v].normal))
-                return x;
-            }
-        Point<dim> middle = grid.fine_cells().box().corner(cell.place);
-        for (unsigned int a = 0; a < dim; ++a)
-          middle[a] += 0.5 * width;
-        if (least_distance(cell.index) > 0. && !surface.is_open(middle))
-          return middle;
-      }
-    return {};
-  }
-
-
-  template <int dim>
   Batch DiscreteLevelSet<dim>::distances(const unsigned int cell, const std::array<Batch, dim> &places) const
   {
     // Hat functions along the axes at the lattice's corners; beyond it those of its outer cells go on.

@@ -3,6 +3,8 @@
 #include <scree/tensor/invariants.h>
 #include <scree/tensor/vector.h>
 
+#include <zlib.h>
+
 namespace scree
 {
   using namespace dealii;
@@ -118,7 +120,7 @@ namespace scree
           }
         std::ostringstream text;
         this->write_vtu(text);
-        std::string vtu = with_component_names(text.str());
+        std::string vtu = with_exact_places(with_component_names(text.str()));
         if (patches.empty()) // deal.II writes no element Points then, but VTK asks for one.
           vtu.insert(vtu.find("<Cells>"), R"(<Points><DataArray type="Float32" NumberOfComponents="3"/></Points>)");
         return vtu;
@@ -129,10 +131,49 @@ namespace scree
       {
         std::ostringstream text;
         this->write_pvtu_record(text, pieces);
-        return with_component_names(text.str());
+        std::string pvtu        = with_component_names(text.str());
+        const std::string exact = "\"Float64\"";
+        if (const auto places = pvtu.find("<PPoints>"); places != std::string::npos)
+          pvtu.replace(pvtu.find("\"Float32\"", places), exact.size(), exact);
+        return pvtu;
       }
 
     private:
+      /// The text of a `.vtu` with places as 64-bit numbers, compressed in one block: deal.II writes 32 bits, which
+      /// round coordinates of maps to decimetres.
+      std::string with_exact_places(std::string text) const
+      {
+        const std::string begin = "<Points>", end = "</Points>";
+        const auto first = text.find(begin), last = text.find(end);
+        if (first == std::string::npos || text.find("vtkZLibDataCompressor") == std::string::npos)
+          return text;
+        std::vector<double> places;
+        for (const Patch &patch : patches)
+          for (unsigned int v = 0; v < GeometryInfo<patch_dim>::vertices_per_cell; ++v)
+            for (unsigned int a = 0; a < 3; ++a)
+              places.push_back(a < dim ? patch.vertices[v][a] : 0.);
+        const uLong size      = places.size() * sizeof(double);
+        uLongf compressed     = compressBound(size);
+        const auto characters = [](const auto *data, const std::size_t n_bytes) {
+          const auto *bytes = reinterpret_cast<const unsigned char *>(data);
+          return Utilities::encode_base64({ bytes, bytes + n_bytes });
+        };
+        std::vector<unsigned char> bytes(compressed);
+        AssertThrow(compress2(bytes.data(),
+                              &compressed,
+                              reinterpret_cast<const unsigned char *>(places.data()),
+                              size,
+                              Z_BEST_SPEED) == Z_OK,
+                    ExcInternalError());
+        const std::array<std::uint32_t, 4> head{
+          { 1, std::uint32_t(size), std::uint32_t(size), std::uint32_t(compressed) }
+        };
+        return text.substr(0, first + begin.size()) +
+               "\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"binary\">\n" +
+               characters(head.data(), sizeof head) + characters(bytes.data(), compressed) + "\n</DataArray>\n" +
+               text.substr(last);
+      }
+
       /// VTK's text with names for the components of vectors and tensors, which deal.II does not write.
       std::string with_component_names(std::string text) const
       {

@@ -4,6 +4,8 @@
 #include <scree/run/safety.h>
 #include <scree/version.h>
 
+#include <unistd.h>
+
 #include <iterator>
 #include <regex>
 
@@ -33,6 +35,7 @@ namespace scree
       std::string case_file; ///< to read; of Task::new_case to write; may be empty where the task needs none
       std::string name;      ///< subsection of Task::print_parameters, scene of Task::new_case; may be empty
       double accuracy = default_accuracy;   ///< of Task::advise, relative error
+      double n_ranks  = 0;                  ///< of Task::advise; 0: those of this program
       std::vector<std::string> options;     ///< names of all of them
       std::vector<std::string> other_words; ///< that are no options
 
@@ -55,6 +58,7 @@ namespace scree
                                        { "--safety", Task::safety, "" },
                                        { "--advise", Task::advise, "" },
                                        { "--accuracy", {}, "--advise" },
+                                       { "--ranks", {}, "--advise" },
                                        { "--print-parameters", Task::print_parameters, "" },
                                        { "--json", {}, "--print-parameters" },
                                        { "--sections", {}, "--print-parameters" },
@@ -127,6 +131,13 @@ namespace scree
                 if (!(sorted.accuracy > 0 && sorted.accuracy < 1))
                   throw fault("\"--accuracy\" is " + quoted(words[w]) +
                               ". Write a relative error between 0 and 1, such as 0.05.");
+              }
+            if (option.name == "--ranks")
+              {
+                sorted.n_ranks = ++w < words.size() ? number_of(words[w]) : 0.;
+                if (!(sorted.n_ranks >= 1. && sorted.n_ranks <= 1e6 && sorted.n_ranks == std::floor(sorted.n_ranks)))
+                  throw fault("\"--ranks\" is " + (w < words.size() ? quoted(words[w]) : std::string("the last word")) +
+                              ". Write a whole number behind it, such as 64.");
               }
             if (!option.task)
               continue;
@@ -221,7 +232,7 @@ namespace scree
       return "Usage: scree case.prm             run a case\n"
              "       scree case.prm --resume    continue from the newest checkpoint in its run folder\n"
              "       scree case.prm --safety    factor of safety of a slope by strength reduction\n"
-             "       scree case.prm --advise [--accuracy 0.05]\n"
+             "       scree case.prm --advise [--accuracy 0.05] [--ranks 64]\n"
              "                                  regime, estimated cost and recommendations\n"
              "       scree --new                list of scenes to start from\n"
              "       scree --new SCENE [case.prm] [--overwrite]\n"
@@ -352,7 +363,10 @@ namespace scree
       std::string text = "Written:";
       for (const auto &[path, content] : files)
         text += ' ' + path.string();
-      return text + "\nNext: scree " + case_file.string() + " --advise, then scree " + case_file.string() + '\n';
+      // --advise looks at the points of the start and refuses cases whose points enter.
+      const bool has_inflow   = files[0].second.find("\nsubsection Inflow") != std::string::npos;
+      const std::string first = has_inflow ? "" : " --advise, then scree " + case_file.string();
+      return text + "\nNext: scree " + case_file.string() + first + '\n';
     }
 
 
@@ -378,6 +392,10 @@ namespace scree
     int run_case(const Arguments &arguments, const Run &run)
     {
       Parameters parameters(arguments.case_file);
+      // A terminal shows that the set-up goes on, until the first line of the log is over it.
+      if (arguments.task != Task::advise && parameters.output.screen_kind() == Screen::progress &&
+          dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 && isatty(STDOUT_FILENO) != 0)
+        std::cout << "Setting up " + arguments.case_file + " ...\r" << std::flush;
       try
         {
           const End end = parameters.dimension == 2 ? run(std::integral_constant<int, 2>(), parameters)
@@ -420,7 +438,7 @@ namespace scree
           });
         case Task::advise:
           return run_case(arguments, [&](const auto dim, Parameters &parameters) {
-            advise<dim()>(parameters, arguments.accuracy, communicator, out);
+            advise<dim()>(parameters, arguments.accuracy, arguments.n_ranks, communicator, out);
             return End::complete;
           });
         default:

@@ -49,7 +49,7 @@ _scree()
   done
   if [[ $word == -* ]]; then
     case $task in
-      --advise) _scree_reply <<<'--accuracy' ;;
+      --advise) _scree_reply <<<$'--accuracy\n--ranks' ;;
       --new) _scree_reply <<<'--overwrite' ;;
       --print-parameters) _scree_reply <<<$'--json\n--sections' ;;
       '') _scree_reply <<<$'--resume\n--safety\n--advise\n--new\n--print-parameters\n--version\n--help' ;;
@@ -57,7 +57,7 @@ _scree()
     return
   fi
   case $before in
-    --accuracy) return ;;
+    --accuracy | --ranks) return ;;
     --new) _scree_reply < <("$program" --new 2>/dev/null | sed -n 's/^  \([a-z_]*\) .*/\1/p') ;;
     --print-parameters) _scree_reply < <("$program" --print-parameters --sections ${case_file:+"$case_file"} 2>/dev/null) ;;
   esac

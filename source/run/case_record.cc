@@ -152,23 +152,6 @@ namespace scree
         else
           folder.record(line);
     }
-
-
-    /// Warns of ground that cells do not resolve. Collective.
-    template <int dim>
-    void log_thin_bed(const DiscreteLevelSet<dim> &bed, RunFolder &folder, const MPI_Comm communicator)
-    {
-      const auto place = bed.thin_place();
-      for (const std::string &text : Utilities::MPI::gather(communicator, place ? number_text(*place) : std::string()))
-        if (!text.empty())
-          {
-            folder.log(
-                "Bed: at (" + text +
-                ") m the ground is thinner than a cell. Points may pass through it there. Write smaller cells, or "
-                "thicker ground.");
-            return;
-          }
-    }
   } // namespace
 
 
@@ -191,8 +174,6 @@ namespace scree
         log_remark(folder, body.seeding.map->remark(body.name));
     if (scene.ground)
       log_remark(folder, scene.ground->remark());
-    if (scene.bed)
-      log_thin_bed(*scene.bed, folder, scene.grid.communicator());
     if (const std::string forces = scene.forcing.text(); !forces.empty())
       folder.record(forces);
     if (scene.seepage)
@@ -211,8 +192,9 @@ namespace scree
           " m above the water level, ends inside a cell, the pressure deviates by up to 22 % of the Air entry "
           "pressure. Let it end at a cell face or above the ground.");
     if (scene.rain && std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const auto &b) { return !b.is_rigid; }))
-      folder.log("Rain: on deformable soil up to 28 % more water enters than by Darcy's law, if the rate exceeds the "
-                 "conductivity. Compare with a body of Material = rigid.");
+      folder.log("Rain: if the rate exceeds the conductivity of deformable soil, up to 28 % more water enters than by "
+                 "Darcy's law, and it stands up to 1.6 times as high on the soil as its volume. Compare with a body of "
+                 "Material = rigid.");
   }
 
 

@@ -123,6 +123,14 @@ namespace scree
                              bracket.rests,
                              digits + 1,
                              bracket.fails));
+        folder.log(
+            "Set by      " +
+            (failed_by_displacement
+                 ? "\"Displacement\" = " + number_text(safety.displacement) +
+                       ": the trial beyond the factor ended there, still in motion. A larger value shows whether it "
+                       "comes to rest."
+                 : std::string("rest: beyond the factor the soil did not come to rest in time, and moved less than "
+                               "\"Displacement\".")));
         folder.log("Results     " + path +
                    ": safety.csv; rests and fails, the trials beside the factor, with solution/points.pvd");
         return End::complete;
@@ -157,6 +165,8 @@ namespace scree
           simulation.write_picture();
         }
         bracket.include(factor, trial.end);
+        if (trial.end == TrialEnd::fails)
+          failed_by_displacement = trial.has_moved;
         record(factor, trial);
         if (trial.end != TrialEnd::undecided)
           keep_as(text_of(trial.end));
@@ -226,7 +236,8 @@ namespace scree
       RowFile rows;
       FactorBracket bracket;
       Timer clock; // of all trials
-      unsigned int n_trials = 0;
+      unsigned int n_trials       = 0;
+      bool failed_by_displacement = false; // the last trial that failed
     };
   } // namespace
 

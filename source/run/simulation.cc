@@ -37,7 +37,8 @@ namespace scree
     record_case(parameters, folder);
     log_case(scene, folder);
     log_released(scene, folder);
-    for (const std::string &remark : remarks_on(parameters, scene.bodies, communicator))
+    for (const std::string &remark :
+         remarks_on(parameters, scene.bodies, scene.water, scene.ground.get(), communicator))
       folder.log(remark);
     if (parameters.settling.maximum_time > 0)
       settle();
@@ -240,7 +241,11 @@ namespace scree
   void Simulation<dim>::summarise(const End end, const double point_updates_before)
   {
     const double n_updates = Utilities::MPI::sum(point_updates - point_updates_before, communicator);
-    progress->conclude(end == End::complete ? "Finished" : "Stopped", clock.time(), n_updates, communicator);
+    progress->conclude(end == End::complete ? "Finished" : "Stopped",
+                       clock.time(),
+                       n_updates,
+                       parameters.time_step.maximum != "auto",
+                       communicator);
     progress->summarise(timer, n_updates, scene.water.empty() ? "point" : "soil or water point", communicator);
     progress->summarise_ranks(
         seconds_of(timer, TimerSection::waiting), partition.imbalance(), partition.n_repartitions(), communicator);
@@ -689,8 +694,9 @@ namespace scree
     };
     const TimeStepper until_rest = relax(bounds.maximum_time, steps_between_looks, has_ended);
     scene.forcing.set_damping(0.);
-    trial.time  = until_rest.time();
-    trial.steps = until_rest.step();
+    trial.has_moved = trial.displacement > bounds.displacement;
+    trial.time      = until_rest.time();
+    trial.steps     = until_rest.step();
     return trial;
   }
 

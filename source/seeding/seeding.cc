@@ -349,7 +349,7 @@ namespace scree
 
   void SeedingParameters::check(const std::string &body, const unsigned int dim) const
   {
-    require_entry(region != SeedingParameters().region || source.is_region() || is_fed,
+    require_entry(has_expression() || source.is_set() || is_fed,
                   { body, "Region", region },
                   "the body has no region. Write one, for instance x < 1 && y < 1");
     require_entry(initial_porosity == -1 || initial_porosity >= 0,

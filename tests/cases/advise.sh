@@ -68,6 +68,11 @@ pathlib.Path("undrained.prm").write_text(set_entry(text, "Water/Hydraulic conduc
 END
 "$scree" --advise undrained.prm >text
 grep -q "^  do not refine .*grows with finer cells" text
+# Unusual values come first, as in a run; a run on other ranks is estimated.
+sed "s/Grain density *= .*/Grain density = 2.0/" prm/slopes/first_slope.prm >light.prm
+"$scree" --advise light.prm --ranks 64 >text
+grep -q '^Unusual value: .*entry "Grain density" = 2.0: usual are 900 to 8000 kg/m^3' text
+grep -q '^  on 64 ranks, if shared out evenly ' text
 
 [ ! -e results ] || { echo "a run folder was made"; exit 1; }
 [ -z "$(ls advice)" ] || { echo "left behind: $(ls advice)"; exit 1; }

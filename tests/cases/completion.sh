@@ -30,7 +30,7 @@ expect()
 expect 'mine.prm my.prm' m
 expect '--resume' --re
 expect '--new' my.prm --n
-expect '--accuracy' my.prm --advise --
+expect '--accuracy --ranks' my.prm --advise --
 expect '--json --sections' --print-parameters --
 expect 'slope' --new sl
 expect '' --accuracy ''

@@ -31,6 +31,9 @@ for scene in $scenes; do
   grep '^Finished' screen | grep -Eq ' ([2-9]|[1-9][0-9]+) steps'
 done
 [ -s mountain.asc ]
+# The command that is named next is not refused: --advise is, where points enter.
+"$scree" --new debris_flow flow.prm --overwrite | grep -q '^Next: scree flow.prm$'
+"$scree" --new slope bank.prm | grep -q '^Next: scree bank.prm --advise, then scree bank.prm$'
 
 refused()
 {

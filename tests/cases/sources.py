@@ -10,8 +10,9 @@ import sys
 
 import numpy as np
 from osgeo import gdal, ogr
+from scipy.spatial import cKDTree
 
-from scree.results import read_raster, read_statistics
+from scree.results import read_points, read_raster, read_statistics
 
 from case_tools import check, log_of, run
 
@@ -87,6 +88,35 @@ def surfaces():
     check(abs(relative) <= 0.01, f"outline: {relative}")
 
 
+def areas():
+    """Areas have the thickness of their attribute, the larger one where they overlap, or one number; with a raster the log says what is not used."""
+    mountain()
+    thick = ((rectangle(1040, 2040, 40, 30), 1.), (rectangle(1100, 2060, 20, 40), 4.), (rectangle(1110, 2080, 30, 40), "2.5"))
+    text = {"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"THICKNESS": value}, "geometry":
+                                                       {"type": "Polygon", "coordinates": [ring.tolist()]}} for ring, value in thick]}
+    pathlib.Path("thick.geojson").write_text(json.dumps(text), encoding="utf-8")
+    pathlib.Path("plain.csv").write_text("x, y\n1040, 2040\n1060, 2040\n1060, 2060\n1040, 2060\n", encoding="utf-8")
+    size = 40 * 30 + 20 * 40 + 30 * 40 - 10 * 20  # two have 10 m x 20 m in common
+    of_attribute = 40 * 30 + 4 * 20 * 40 + 2.5 * (30 * 40 - 10 * 20)
+    area = {**SLIDE, "Soil/Outline": "../thick.geojson"}
+    for name, entries, exact in (("attribute", {}, of_attribute), ("number", {"Soil/Thickness": 6}, 6. * size),
+                                 ("with_region", {"Soil/Region": "x < 1090"}, 40. * 30)):
+        results = run(name, {**area, **entries})
+        relative = mass_of(results) / (DENSITY * exact) - 1
+        print(f"{name}: mass over the exact one - 1: {relative:.2e}")
+        check(abs(relative) <= 0.01, f"{name}: {relative}")
+        is_asked = "attribute thickness of 1 to 4 m, which is not used beside \"Thickness\"" in log_of(results)
+        check(is_asked == (name == "number"), log_of(results))
+    # A box from the raster has room for the thickest area.
+    boxless = {entry: value for entry, value in area.items() if "corner" not in entry}
+    check(abs(mass_of(run("box", boxless)) / (DENSITY * of_attribute) - 1) <= 0.01, "with a box from the raster")
+    log = log_of(run("cut", {**area, **THICKNESS}))
+    check("Unusual value: subsection Soil, entry \"Outline\"" in log and "not used beside \"Thickness\"" in log, log)
+    # A region is not above the bed: it fills its outline up to a height of the map.
+    log = log_of(run("high", {**SLIDE, "Soil/Outline": "../plain.csv", "Soil/Region": "z < 215"}))
+    check("m high, more than half their width" in log, log)
+
+
 def rectangle(x, y, width, height):
     """Its corners, counter-clockwise, the first one at the end again."""
     return np.array([(x, y), (x + width, y), (x + width, y + height), (x, y + height), (x, y)], dtype=float)
@@ -128,7 +158,7 @@ def shifted():
         outline = np.array([(50., 40.), (150., 50.), (130., 130.), (60., 110.)]) + corner
         pathlib.Path("outline.csv").write_text("".join("%.17g, %.17g\n" % tuple(place) for place in outline), encoding="utf-8")
     case = {**SLIDE, **THICKNESS, "Soil/Outline": "../outline.csv", "End time": 0.2, "Mesh/Lower corner": "10, 10, 80", "Mesh/Upper corner": "190, 150, 230",
-            "Bed/Type": "friction", "Bed/Friction angle": 25}
+            "Bed/Type": "friction", "Bed/Friction angle": 25, "Output/Graphics": "points and grid"}
     far = (2.6e6, 1.2e6)
     system = 'PROJCS["CH1903+_LV95"]'
     pathlib.Path("bed.prj").unlink(missing_ok=True)  # of the run before
@@ -148,6 +178,15 @@ def shifted():
     check((moved / "maps" / "largest_thickness.prj").read_text(encoding="utf-8") == system, "system of coordinates")
     check(not (near / "maps" / "largest_thickness.prj").exists(), "system of coordinates from nowhere")
     check("Local origin: x = 0, y = 0 is 2600000, 1200000 m" in log_of(moved), "log")
+    # Without it, places in pictures are exact, too.
+    corners = {f"Mesh/{name}": "%.9g, %.9g, %.9g" % tuple(np.add(place, (*far, 0))) for name, place in (("Lower corner", (10, 10, 80)), ("Upper corner", (190, 150, 230)))}
+    national = run("national", {**case, **corners})
+    for collection, time in (("points", None), ("points", 0.), ("grid", None)):
+        here, there = (read_points(results, time, collection).positions for results in (near, national))
+        # Where the outline goes along lines of the sampling, rounding decides on some points.
+        largest = np.quantile(cKDTree(here).query(there - [*far, 0.])[0], 0.99)
+        print(f"{collection}: places differ by {largest:.1e} m")
+        check(largest <= 1e-3, f"{collection}: places differ by {largest} m")
 
 
 globals()[sys.argv[3]]()

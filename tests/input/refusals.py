@@ -55,13 +55,38 @@ QUESTIONED = {
         {**INSTANT, **COULOMB, "Boundaries/Bottom": "friction 30", "Soil/Mohr-Coulomb/Friction angle kind": "direct shear or repose"}, []),
     "rain in mm/h, a water table above all soil": (
         {**INSTANT, **SOIL, "Rain/Rate": 50, "Water/Phreatic surface": 0.95},
-        ['subsection Rain, entry "Rate" = 50: the unit is m/s (1 mm/h = 2.78e-7 m/s)',
+        ['subsection Rain, entry "Rate" = 50: usual are 1e-10 to 0.1 m/s (1 m/d = 1.16e-5 m/s, 1 mm/h = 2.78e-7 m/s). Look at the unit.',
          'subsection Water, entry "Phreatic surface" = 0.95: all soil lies more than a cell below it']),
     "a water table at the ground": ({**INSTANT, **SOIL, "Water/Phreatic surface": 0.55}, []),
     "water above the ground": ({**INSTANT, **SOIL, "Water/Phreatic surface": 0.8, "Water/Reservoir level": 0.8}, []),
     "a conductivity in m/d, and mPa s": (
         {**INSTANT, **SOIL, "Transfer/Method": "TPIC", "Water/Hydraulic conductivity": 86, "Water/Density": 1},
-        ['entry "Density" = 1: the unit is kg/m^3', 'entry "Hydraulic conductivity" = 86: the unit is m/s']),
+        ['entry "Density" = 1: usual are 500 to 2000 kg/m^3', 'entry "Hydraulic conductivity" = 86: usual are 1e-13 to 1 m/s']),
+    "radians, kPa, g/cm^3": (
+        {**INSTANT, **COULOMB, "Soil/Grain density": 2.65, "Soil/Mohr-Coulomb/Friction angle": 0.55, "Soil/Mohr-Coulomb/Cohesion": 0.005,
+         "Boundaries/Bottom": "friction 0.35"},
+        ['subsection Soil, entry "Grain density" = 2.65: usual are 900 to 8000 kg/m^3 (1 g/cm^3 = 1e3 kg/m^3',
+         'subsection Soil/Mohr-Coulomb, entry "Friction angle" = 0.55: usual are 1.6 to 70 degrees (1 rad = 57.3 degrees)',
+         'subsection Soil/Mohr-Coulomb, entry "Cohesion" = 0.005: usual are',
+         'subsection Boundaries, entry "Bottom" = friction 0.35: usual are 1.6 to 70 degrees']),
+    "kPa of clay that grows with depth, and of a load": (
+        {**INSTANT, **SOIL, "Soil/Material": "Tresca", "Soil/Tresca/Undrained strength": "20 + 4*(0.5 - y)", "Surface load/Lower corner": "0, 0.5",
+         "Surface load/Upper corner": "1, 0.5", "Surface load/Traction": "0; -min(1, t)*2"},
+        ['subsection Soil/Tresca, entry "Undrained strength" = 20 + 4*(0.5 - y): usual are', 'subsection Surface load, entry "Traction" = 0; -min(1, t)*2: usual']),
+    "a law that is not chosen is not asked": ({**INSTANT, **COULOMB, "Soil/Linear elastic/Young's modulus": 20}, ["this entry has no effect"]),
+    "soil and water that the top cuts off": (
+        {**INSTANT, **SOIL, "Soil/Region": "x < 0.5 && y < 1.3", "Water/Region": "x > 0.5 && y < 1.5"},
+        ['entry "Region" = x < 0.5 && y < 1.3: the box cuts it off. 0.150391 m^3/m lie beyond the face Top of the box, and 0.5 m^3/m in it are filled.',
+         'subsection Water, entry "Region" = x > 0.5 && y < 1.5: the box cuts it off. 0.25 m^3/m lie beyond the face Top']),
+    "a layer that ends beyond a closed wall": (
+        {**INSTANT, **SOIL, "Soil/Region": "y < 0.5 && x < 1.5"}, ['0.25 m^3/m lie beyond the face Right of the box, and 0.5 m^3/m in it are filled.']),
+    "half spaces, and soil up to the top": ({**INSTANT, **SOIL, "Soil/Region": "x < 0.5 || y < 0.3 + 0.1*sin(20*x)"}, []),
+    "a reservoir above the box": ({**INSTANT, **SOIL, "Water/Phreatic surface": 0.5, "Water/Reservoir level": 1.4},
+                                  ['subsection Water, entry "Reservoir level" = 1.4: the box cuts it off. 0.398438 m^3/m lie beyond the face Top']),
+    "a reservoir beside dry soil": ({**INSTANT, **SOIL, "Soil/Region": "x < 0.5 && y < 0.7", "Water/Phreatic surface": 0.2, "Water/Reservoir level": 0.6},
+                                    ['entry "Reservoir level" = 0.6: it stands above "Phreatic surface" = 0.2, beside soil with dry pores, for instance at 0.']),
+    "a reservoir at the level of the water table": ({**INSTANT, **SOIL, "Soil/Region": "x < 0.5 && y < 0.7", "Water/Phreatic surface": 0.6,
+                                                     "Water/Reservoir level": 0.6}, []),
 }
 
 TERRAIN = {**INSTANT, "Dimension": 3, "Gravity": "0, 0, -9.81", "Bed/Type": "fixed", "Bed/Raster": "heights.asc",

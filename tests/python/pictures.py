@@ -5,6 +5,7 @@ import contextlib
 import pathlib
 import shutil
 import sys
+from unittest import mock
 
 import matplotlib
 
@@ -12,6 +13,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
+from scree import render  # noqa: E402
 from scree.pictures import fields, panels, paraview, plane, rigid  # noqa: E402
 from scree.results import Box, Points  # noqa: E402
 
@@ -89,6 +91,18 @@ def check_title(run):
     assert panels._title(run, 2.5) == "t = 2.5 s"
 
 
+def check_default_field():
+    """Soil of which more than 1 % has moved by more than a cell is shown by its displacement, or without it by its speed."""
+    rest = lattice(2)
+    rest.arrays["id"] = np.arange(len(rest.positions))
+    slid = rest._replace(positions=rest.positions + [2 * CELL, 0, 0] * (np.arange(len(rest.positions)) % 50 == 0)[:, None])
+    told = slid._replace(arrays={**slid.arrays, "displacement": np.zeros((len(rest.positions), 3))})
+    for last, field in ((rest, "mean_effective_stress"), (slid, "velocity"), (told, "displacement")):
+        with mock.patch.multiple(render.results, read_times=lambda *_: np.array([0., 1.]), read_box=lambda *_: box(2),
+                                 read_points=lambda run, time, collection, last=last: rest if time == 0 else last):
+            assert render.default_field("run", "points") == field, field
+
+
 def check_paraview(run):
     """The ground beside the script for ParaView is that of the bed, in the coordinates of the points."""
     import vtk  # pylint: disable=import-outside-toplevel
@@ -129,6 +143,7 @@ def main():
     check_areas()
     check_ground(run)
     check_title(run)
+    check_default_field()
     check_paraview(run)
     if shutil.which("Xvfb"):
         check_space(run)

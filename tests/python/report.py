@@ -3,6 +3,7 @@
 
 import html.parser
 import pathlib
+import shutil
 
 from scree import report, results
 
@@ -105,6 +106,25 @@ def test_page():
     for wanted in ("<p>A slope &amp; more.</p>", "# s, &lt;b&gt;", "scree my &lt;slope&gt;.prm", "Probe empty: not drawn.",
                    "<td>Front 90 %</td><td>m</td><td class=number>1.5</td><td class=number>nan</td>"):
         assert wanted in text, wanted
+
+
+def test_safety():
+    """A folder of --safety alone, and the run folder around it, show the factor, its bracket and the trials."""
+    run = folder(LOG)
+    safety = run / "safety"
+    (safety / "fails").mkdir(parents=True, exist_ok=True)
+    (safety / "log.txt").write_text("Safety      case.prm -> run/safety\nFactor of safety  1.35 (between 1.300 and 1.400)\nSet by      rest: it still moved\n", encoding="utf-8")
+    (safety / "safety.csv").write_text("Factor (-),Rests (-),Displacement (m)\n1.4,0,0.5\n1,1,0.1\n1.3,1,0.2\n", encoding="utf-8")
+    for name in ("original.prm", "parameters.prm"):
+        (safety / "fails" / name).write_bytes((run / name).read_bytes())
+    for place, has_verdict in ((run, True), (safety, False)):
+        text = report.page(place)
+        sections = Tags(text).sections
+        assert sections[0] == "safety" and ("verdict" in sections) == has_verdict and "case" in sections, sections
+        for wanted in ("<b>Factor of safety</b> 1.35 (between 1.300 and 1.400)", "<b>Set by</b> rest", "<td class=number>1.4</td><td class=number>0</td>"):
+            assert wanted in text, wanted
+        assert text.index(">1</td>") < text.index(">1.3</td>") < text.index(">1.4</td>"), "trials by their factors"
+    shutil.rmtree(safety)
 
 
 run_tests(globals())

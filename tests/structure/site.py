@@ -9,12 +9,15 @@ Exit code 77: the links hold, but Sphinx or what conf.py needs is not installed.
 """
 
 import importlib.util
+import json
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
 
+# Words of other programs that the search finds on a page for users.
+SEARCHED = ("retain", "pile", "excav", "runout", "permeabl", "uncertainti", "mont", "calibr")
 MODULES = ("sphinx", "myst_parser", "sphinx_rtd_theme", "sphinxcontrib.bibtex")
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
 SHOWN = ("running", "theory/two_phases", "validation", "parameters/water")
@@ -116,6 +119,18 @@ def needs_network(site):
             yield f"{file.relative_to(site)} needs a network or a server: {found}"
 
 
+def not_searched(site):
+    """Words of SEARCHED that the search does not find, and pages for developers that it does."""
+    text = (site / "searchindex.js").read_text(encoding="utf-8")
+    index = json.loads(text[text.index("(") + 1:text.rindex(")")])
+    pages_of = {word: numbers if isinstance(numbers, list) else [numbers] for word, numbers in index["terms"].items()}
+    for word in SEARCHED:
+        if not any(found.startswith(word) for found in pages_of):
+            yield f"The search does not find {word!r}."
+    found = {index["docnames"][number] for numbers in pages_of.values() for number in numbers}
+    yield from (f"The search finds {page}, a page for developers." for page in sorted(found) if page.startswith("developer/"))
+
+
 def seen_in_browser(site, picture):
     browser = shutil.which("chromium")
     if not browser:
@@ -156,6 +171,7 @@ def main():
         faults += lost_text(root, folder / "lost_text")
     if not faults:
         faults += needs_network(folder / "html")
+        faults += not_searched(folder / "html")
         faults += seen_in_browser(folder / "html", folder / "browser.png")
     sys.exit("\n".join(faults) or 0)
 

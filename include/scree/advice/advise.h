@@ -314,8 +314,13 @@ namespace scree
   /// run folder is not touched. `parameters` must not be used for a run afterwards. Collective; throws as a run's
   /// start.
   /// @param accuracy relative error for which cells are recommended
+  /// @param n_ranks that a run is to have; 0: as many as there are now
   template <int dim>
-  void advise(Parameters &parameters, const double accuracy, const MPI_Comm communicator, std::ostream &out);
+  void advise(Parameters &parameters,
+              const double accuracy,
+              const unsigned int n_ranks,
+              const MPI_Comm communicator,
+              std::ostream &out);
 } // namespace scree
 
 #endif

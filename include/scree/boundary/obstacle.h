@@ -18,7 +18,7 @@ namespace scree
   class Obstacle
   {
   public:
-    /// At its place of the start. Collective; throws EntryError if it is at rest and not in the box.
+    /// At its place of the start. Collective.
     /// @param box lower and upper corners are asked for
     Obstacle(const ObstacleParameters &parameters, const GridParameters &box, const BackgroundGrid<dim> &grid);
 
@@ -80,9 +80,6 @@ namespace scree
     }
 
   private:
-    /// Throws EntryError if it is nowhere in the box. Collective.
-    void require_in_box(const ObstacleParameters &parameters) const;
-
     /// Whether it covers a face of the box as far as a node there reaches.
     bool covers(const unsigned int face, const dealii::Point<dim> &node) const;
 

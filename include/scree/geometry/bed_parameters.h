@@ -136,6 +136,16 @@ namespace scree
     /// Throws EntryError at impossible combinations.
     void check(const unsigned int dim) const;
 
+    /// Throws EntryError if the body behind the surface is thinner than a cell anywhere in the box, where soil passes
+    /// through it, or if it has to be in the box and is not.
+    /// @param lower, upper corners of the box, m
+    /// @param cell_size of the mesh, m
+    template <int dim>
+    void check_place(const std::vector<double> &lower,
+                     const std::vector<double> &upper,
+                     const double cell_size,
+                     const bool has_to_be_in_box) const;
+
     /// Entry `Type` as an enum.
     BedType type_kind() const
     {

@@ -101,10 +101,29 @@ namespace scree
     using Ring = std::vector<dealii::Point<2>>; ///< corners of a closed line, m; the first one is at the end again
 
     /// @param areas at least one: the edge and the holes of each
-    explicit Outline(std::vector<std::vector<Ring>> areas);
+    /// @param thickness of each area, m; empty: not known
+    explicit Outline(std::vector<std::vector<Ring>> areas, std::vector<double> thickness = {});
 
     /// Whether a place, m, is in an area and in none of its holes.
-    bool contains(const dealii::Point<2> &x) const;
+    bool contains(const dealii::Point<2> &x) const
+    {
+      return thickness_at(x) >= 0.;
+    }
+
+    /// The largest thickness, m, of the areas that contain a place, 0 if it is not known; -1 outside all of them.
+    double thickness_at(const dealii::Point<2> &x) const;
+
+    /// Smallest and largest thickness of the areas, m; zeros if they are not known.
+    std::pair<double, double> range_of_thickness() const;
+
+    /// Gives all areas the same thickness, m.
+    void set_thickness(const double value)
+    {
+      thickness.assign(areas.size(), value);
+    }
+
+    /// Sum of the areas less their holes, m^2.
+    double area() const;
 
     /// Lower and upper corner of the box around all areas, m.
     const std::pair<dealii::Point<2>, dealii::Point<2>> &bounds() const
@@ -114,11 +133,14 @@ namespace scree
 
   private:
     std::vector<std::vector<Ring>> areas;
+    std::vector<double> thickness;
     dealii::BoundingBox<2> box;
   };
 
-  /// Reads the areas of a file in a vector format of GDAL, else one from a text of its corners "x, y", m, one a line.
-  /// Throws EntryError, which begins with `where` (see entry_name()), if there is none, or if edges cross.
+  /// Reads the areas of a file in a vector format of GDAL, and their thickness if they have an attribute of that name;
+  /// else one area from a text of its corners "x, y", m, one a line.
+  /// Throws EntryError, which begins with `where` (see entry_name()), if there is none, if edges cross, or if some
+  /// areas only have a thickness.
   /// @param origin where the map has the origin of the outline's x and y, m
   Outline read_outline(const std::string &file, const std::string &where, const dealii::Point<2> &origin);
 

@@ -11,7 +11,7 @@ namespace scree
   /// Where a body is, by maps: entries of its subsection.
   struct SourceMapParameters
   {
-    std::string thickness, ///< file of thicknesses, m, above the bed
+    std::string thickness, ///< file of thicknesses above the bed, or one thickness of all areas of the outline, m
         upper_surface,     ///< file of heights, m
         outline;           ///< file of polygons on the map, m
 
@@ -19,7 +19,7 @@ namespace scree
     void add_parameters(dealii::ParameterHandler &prm);
 
     /// Throws EntryError at impossible combinations; `body` is the name of the subsection.
-    void check(const std::string &body, const unsigned int dim, const bool has_water, const bool has_bed) const;
+    void check(const std::string &body, const unsigned int dim, const bool has_free_water, const bool has_bed) const;
 
     /// Whether any of the files is given.
     bool is_set() const
@@ -27,10 +27,10 @@ namespace scree
       return !thickness.empty() || !upper_surface.empty() || !outline.empty();
     }
 
-    /// Whether they bound the body below and above, so that it needs no expression.
-    bool is_region() const
+    /// Whether entry "Thickness" is a number and no file.
+    bool has_one_thickness() const
     {
-      return !thickness.empty() || !upper_surface.empty();
+      return !std::isnan(number_of(thickness));
     }
 
     /// Entry and value of the first that is given, for messages.
@@ -45,18 +45,20 @@ namespace scree
   };
 
   /// The part of space that a body's maps bound: above its bed, by less than a thickness or up to an upper surface,
-  /// within an outline. Between their values rasters are bilinear; where a
-  /// thickness is missing it is 0, where a height is missing the body is not.
+  /// within an outline. Between their values rasters are bilinear; where a thickness is missing it is 0, where a height
+  /// is missing the body is not. Areas of an outline have one thickness each.
   class SourceMap
   {
   public:
     /// Reads the files; throws EntryError if they are no source in the box and above the bed.
     /// @param body name of the subsection
+    /// @param has_expression whether an expression bounds the body, too
     /// @param ground the bed; null without it
     /// @param origin of the map
     /// @param lower, upper corners of the box, m
     SourceMap(const SourceMapParameters &parameters,
               const std::string &body,
+              const bool has_expression,
               const std::shared_ptr<const LevelSet<3>> &ground,
               const dealii::Point<2> &origin,
               const std::vector<double> &lower,
@@ -69,17 +71,23 @@ namespace scree
         return false;
       if (upper_surface && !(x[2] < upper_surface->value_at(x[0], x[1])))
         return false;
-      const double part = thickness ? thickness->value_at(x[0], x[1], 0.) : 0.;
-      if (thickness && !(part > 0.))
+      const double part = thickness_at(x[0], x[1]);
+      if (has_thickness() && !(part > 0.))
         return false;
       // Less than a thickness above the ground is what would be below it by that much less.
-      return !ground || (ground->is_open(x) && (!thickness || !ground->is_open({ x[0], x[1], x[2] - part })));
+      return !ground || (ground->is_open(x) && (!has_thickness() || !ground->is_open({ x[0], x[1], x[2] - part })));
     }
 
     /// Whether maps alone bound the body below and above, so that part_of_line() may be asked.
     bool is_layer() const
     {
-      return thickness || upper_surface;
+      return has_thickness() || upper_surface;
+    }
+
+    /// Of the outline, m^2; 0 without.
+    double area() const
+    {
+      return outline ? outline->area() : 0.;
     }
 
     /// The heights, m, between which the body is above x, y of the map and above ground, as far as they are between two
@@ -87,12 +95,12 @@ namespace scree
     std::pair<double, double> part_of_line(const double x, const double y, const double lower, const double upper) const
     {
       const std::pair<double, double> nothing{ lower, lower };
-      const double part = thickness ? thickness->value_at(x, y, 0.) : 0.;
+      const double part = thickness_at(x, y);
       const double over = upper_surface ? upper_surface->value_at(x, y) : upper;
-      if ((thickness && !(part > 0.)) || !(over > lower) || (outline && !outline->contains({ x, y })))
+      if ((has_thickness() && !(part > 0.)) || !(over > lower) || (outline && !outline->contains({ x, y })))
         return nothing;
       double top = std::min(upper, over);
-      if (thickness)
+      if (has_thickness())
         top = std::min(top, part + ground_between(x, y, lower - part, upper - part));
       return { ground_between(x, y, lower, upper), top };
     }
@@ -105,6 +113,17 @@ namespace scree
     const std::pair<std::string, std::string> entry;
 
   private:
+    bool has_thickness() const
+    {
+      return thickness || areas_have_thickness;
+    }
+
+    /// Vertical, m; 0 without or where it is missing.
+    double thickness_at(const double x, const double y) const
+    {
+      return thickness ? thickness->value_at(x, y, 0.) : areas_have_thickness ? outline->thickness_at({ x, y }) : 0.;
+    }
+
     /// Throws EntryError unless every place with a value that counts lies in the box and on ground.
     void check(const std::string &body, const dealii::Point<3> &lower, const dealii::Point<3> &upper) const;
 
@@ -128,6 +147,8 @@ namespace scree
     const std::shared_ptr<const LevelSet<3>> ground;
     std::optional<Raster> thickness, upper_surface;
     std::optional<Outline> outline;
+    std::string note;                  // for the log, on the thickness of its areas
+    bool areas_have_thickness = false; // and no other entry says what is above the ground
   };
 } // namespace scree
 

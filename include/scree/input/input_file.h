@@ -71,16 +71,11 @@ namespace scree
     /// What helps if this subsection is not declared; empty: check() suggests the closest name.
     using SubsectionRemedy = std::function<std::string(const std::string &subsection)>;
 
-    /// What helps if this entry is not declared, or not for this value; empty: as above, or what the value may be.
-    using EntryRemedy =
-        std::function<std::string(const std::string &subsection, const std::string &entry, const std::string &value)>;
-
     /// Throws InputError at the first entry or subsection that `prm` does not declare, and at the first value that does
     /// not fit; suggests the closest declared name, or the `last_remedy` if no name is close.
     void check(const dealii::ParameterHandler &prm,
                const std::string &last_remedy,
-               const SubsectionRemedy &subsection_remedy = {},
-               const EntryRemedy &entry_remedy           = {}) const;
+               const SubsectionRemedy &subsection_remedy = {}) const;
 
     /// The message with the file before it, and the line if it begins with entry_name() of an entry that the file sets.
     InputError error(const std::string &message) const;

@@ -114,7 +114,12 @@ namespace scree
     /// @param how `Finished` or `Stopped`
     /// @param time s, of the end
     /// @param point_updates points times steps, of all ranks
-    void conclude(const std::string &how, const double time, const double point_updates, const MPI_Comm communicator);
+    /// @param has_maximum whether the case has a number as `Maximum time step`
+    void conclude(const std::string &how,
+                  const double time,
+                  const double point_updates,
+                  const bool has_maximum,
+                  const MPI_Comm communicator);
 
     /// Records the table of seconds by part, and ns per point and step. Collective.
     /// @param parts timed sections of this rank

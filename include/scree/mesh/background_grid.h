@@ -34,6 +34,13 @@ namespace scree
       return table.at(basis);
     }
 
+    /// Of the box along the axes, m.
+    std::vector<double> lengths() const;
+
+    /// The largest size of cells from `smallest` to `largest`, m, that divides the box along all axes; 0: there is
+    /// none.
+    double size_that_divides(const double largest, const double smallest) const;
+
     /// Cells of this size along an axis of the box.
     long n_cells_along(const unsigned int axis) const
     {
@@ -68,6 +75,10 @@ namespace scree
 
     /// ...or so many, which take less memory than the program.
     static constexpr double least_ahead = 5e4;
+
+  private:
+    /// Cell sizes and a corner with which the cells fit the box, for the message that they do not.
+    std::string remedy_for_cells() const;
   };
 
   /// Numbers of points in fine cells of this rank, each with the number of the cell's place on the curve.

@@ -5,7 +5,6 @@
 #include <scree/geometry/level_set.h>
 #include <scree/mesh/background_grid.h>
 
-#include <optional>
 #include <unordered_map>
 
 namespace scree
@@ -81,10 +80,6 @@ namespace scree
       const double seen = view(cell, place).distance;
       return seen >= enough || is_moving() ? seen : std::max(seen, surface.view(x, grid.cell_size()).distance);
     }
-
-    /// A place, m, where the surface at rest encloses less than a cell, so that cells see it wrong; none on other
-    /// ranks.
-    std::optional<dealii::Point<dim>> thin_place() const;
 
     /// Its distance alone, m, from several places in a near cell; equal to that of view() but for rounding.
     Batch distances(const unsigned int cell, const std::array<Batch, dim> &places) const;

@@ -75,6 +75,7 @@ namespace scree
   {
     TrialEnd end             = TrialEnd::undecided; ///< how it ended
     double displacement      = 0.;                  ///< that 1 % of the soil's mass exceeds, m
+    bool has_moved           = false;               ///< whether this is beyond the displacement of soil that fails
     double time              = 0.;                  ///< s
     unsigned long long steps = 0;                   ///< number of time steps
   };

@@ -51,16 +51,23 @@ namespace scree
     /// Throws EntryError if an expression does not read; `body` is the name of the subsection.
     void check(const std::string &body, const unsigned int dim) const;
 
+    /// Whether an expression bounds the body.
+    bool has_expression() const
+    {
+      return region != SeedingParameters().region;
+    }
+
     /// The expression of the region; true everywhere if maps alone bound the body.
     std::string expression() const
     {
-      return region == SeedingParameters().region && source.is_region() ? "1" : region;
+      return !has_expression() && source.is_set() ? "1" : region;
     }
 
     /// Entry and value that place the body, for messages.
     std::pair<std::string, std::string> place() const
     {
-      return source.is_region() ? source.first() : std::make_pair(std::string("Region"), region);
+      const bool by_maps = source.is_set() && !(has_expression() && source.first().first == "Outline");
+      return by_maps ? source.first() : std::make_pair(std::string("Region"), region);
     }
 
     /// Whether unit weights say how heavy it is.

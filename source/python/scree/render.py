@@ -5,7 +5,7 @@ scree-render results/quickstart --field deviatoric_stress --times 0,0.5,1
 
 Writes points.png, of the soil, water.png, of the water, and statistics.png into the run folder; what is asked for (--field, --times, --limits)
 is part of a picture's name. Instead of these, --animate makes films (points.gif and points.mp4), --probe NAME draws a probe, and --paraview
-writes paraview.py, a state script for ParaView.
+writes show_in_paraview.py, a state script for ParaView.
 
 Plane runs: each pixel of the material has the colour of its nearest point. 3D runs: a surface around the material, with mean colours, and spheres
 for single points; Debian needs the package xvfb for them.
@@ -22,7 +22,19 @@ from scree.pictures.panels import WRITERS, animate_points, has_collection, rende
 from scree.pictures.paraview import write_state
 from scree.pictures.tables import DEFAULT_PANELS, PANELS, render_probe, render_statistics
 
-DEFAULT_FIELDS = {"points": "mean_effective_stress", "water": "pressure"}  # of each collection
+DEFAULT_FIELDS = {"points": "mean_effective_stress", "water": "pressure"}  # of each collection, unless the soil slides
+
+
+def default_field(run, collection):
+    """The field of a picture: of soil of which 1 % has moved by more than a cell, displacement if it is written, or else speed."""
+    first, last = (results.read_points(run, time, collection) for time in results.read_times(run, collection)[[0, -1]])
+    if collection != "points" or "id" not in first.arrays:
+        return DEFAULT_FIELDS[collection]
+    _, before, after = np.intersect1d(first.arrays["id"], last.arrays["id"], return_indices=True)
+    way = np.linalg.norm(last.positions[after] - first.positions[before], axis=1)
+    if len(way) == 0 or np.percentile(way, 99) <= results.read_box(run).cell_size:
+        return DEFAULT_FIELDS[collection]
+    return "displacement" if "displacement" in last.arrays else "velocity"
 
 
 def draw_probes(arguments):
@@ -52,7 +64,7 @@ def _collections(arguments):
     wanted = [arguments.collection] if arguments.collection else [name for name in DEFAULT_FIELDS if has_collection(arguments.run, name)]
     arguments.field = results.bare_name(arguments.field) if arguments.field else arguments.field
     if not arguments.field:
-        return {name: DEFAULT_FIELDS[name] for name in wanted or ["points"]}
+        return {name: default_field(arguments.run, name) for name in wanted or ["points"]}
     available = {name: results.read_points(arguments.run, None, name).arrays for name in wanted or ["points"]}
     chosen = {name: arguments.field for name, fields in available.items() if arguments.field in fields}
     if not chosen:
@@ -112,7 +124,7 @@ def draw(arguments):
         _draw_films(arguments, chosen, name_of, (times, limits, view))
         return
     if arguments.paraview:
-        output = arguments.output or arguments.run / "paraview.py"
+        output = arguments.output or arguments.run / "show_in_paraview.py"
         if arguments.output and output.exists() and not arguments.force:
             raise ValueError(f"{output} is there already: write another name, or add --force.")
         write_state(arguments.run, output, chosen, limits)
@@ -133,7 +145,8 @@ def main():
     parser.add_argument("run", type=pathlib.Path, help="run folder, for instance results/quickstart")
     parser.add_argument("--probe", help="names of probes, separated by commas: a picture each of their lines or time series, and nothing else")
     parser.add_argument("--collection", choices=list(DEFAULT_FIELDS), help="points of the soil or of the water; default: both, a picture each")
-    parser.add_argument("--field", help=f"{', '.join(FIELDS)} or any array of the file; default: mean_effective_stress, pressure of water")
+    parser.add_argument("--field", help=f"{', '.join(FIELDS)} or any array of the file; default: of soil that slides displacement, "
+                        "or velocity where it is not written, else mean_effective_stress; pressure of water")
     parser.add_argument("--times", help="times of pictures in s, separated by commas; default: first, 1/4, 1/2 and last")
     parser.add_argument("--panels", help=f"of the statistics, separated by commas: {', '.join(PANELS)}; default: {', '.join(DEFAULT_PANELS)}")
     parser.add_argument("--limits", help="ends of the colour bar, in the unit it shows: low,high")
@@ -141,7 +154,7 @@ def main():
                         "default: across the way of the material")
     parser.add_argument("--animate", nargs="?", const="both", choices=["gif", "mp4", "both"],
                         help="films of all pictures, or of those of --times, as GIF and MP4 or one of them; write it after the run folder")
-    parser.add_argument("--paraview", action="store_true", help="paraview.py, which shows the points in ParaView with the colours of the picture")
+    parser.add_argument("--paraview", action="store_true", help="show_in_paraview.py, which shows the points in ParaView with the colours of the picture")
     parser.add_argument("--output", type=pathlib.Path, help="another file, which must not be there; default: in the run folder, named after what it shows")
     parser.add_argument("--force", action="store_true", help="overwrite the file of --output")
     parser.run(lambda arguments: draw_probes(arguments) if arguments.probe else draw(arguments))

@@ -8,6 +8,7 @@ scree-maps; one that cannot be drawn is replaced by the message of its command.
 """
 
 import base64
+import csv
 import datetime
 import html
 import io
@@ -135,6 +136,20 @@ def files(run):
     return table(rows, ("file", "size (kB)"))
 
 
+def safety_folder(run):
+    """The folder of --safety of a run, which may be the run folder itself; None without."""
+    return next((folder for folder in (run, run / "safety") if (folder / "safety.csv").exists()), None)
+
+
+def factor_of_safety(folder):
+    """What the log of --safety says of the factor, and a table of its trials."""
+    lines = re.findall(r"^(Factor of safety|Set by|Stopped) +(.*)$", (folder / "log.txt").read_text(encoding="utf-8"), re.MULTILINE)
+    with open(folder / "safety.csv", encoding="utf-8", newline="") as trials:
+        head, *rows = csv.reader(trials)
+    said = "\n".join(f'<div class="{"bad" if label == "Stopped" else "good"}"><b>{label}</b> {html.escape(text)}</div>' for label, text in lines)
+    return said + table(sorted(tuple(map(float, row)) for row in rows), head)
+
+
 def picture_commands(run, field, times):
     """[(caption, module, arguments)] of the pictures that there is something for."""
     run = pathlib.Path(run)
@@ -213,23 +228,33 @@ def description(file):
 def page(run, field=None, times=None):
     """The whole text of the report. Throws OSError or ValueError if `run` is no run folder."""
     run = pathlib.Path(run)
-    variants.read_entries(run / "parameters.prm")
-    log, charts = results.read_log(run), []
+    safety = safety_folder(run)
+    # A folder of --safety alone has the case in those of its trials.
+    case = run if safety is None or (run / "parameters.prm").exists() else next(
+        (safety / trial for trial in ("fails", "rests") if (safety / trial).exists()), run)
+    variants.read_entries(case / "parameters.prm")
+    log, charts, trials = results.read_log(run if case == run else safety), [], []
     with tempfile.TemporaryDirectory() as folder:
         drawn = {section: _figures(run, commands, folder, charts) for section, commands in picture_commands(run, field, times).items()}
+        for trial in ("fails", "rests") if safety else ():
+            if (safety / trial / "solution" / "points.pvd").exists():
+                band = "plastic_shear_strain"
+                shown = band if band in results.read_points(safety / trial).arrays else "displacement"
+                trials.append(_figures(safety / trial, [(f"The slope {trial}", "render", ["--collection", "points", "--field", shown])], folder, []))
     sections = [
-        ("verdict", "Verdict", verdict(run, log)),
+        ("safety", "Factor of safety", factor_of_safety(safety) + "\n".join(trials) if safety else ""),
+        ("verdict", "Verdict", verdict(run, log) if case == run else ""),
         ("warnings", "Warnings", warnings(log)),
         ("run", "Run", table(identity(run, log))),
         ("maps", "Maps", drawn["maps"]),
         ("pictures", "Pictures", drawn["points"]),
         ("charts", "Charts", "\n".join(charts) + drawn["charts"]),
-        ("statistics", "Statistics", final_statistics(run)),
-        ("case", "Case", case_text(run)),
+        ("statistics", "Statistics", final_statistics(run) if case == run else ""),
+        ("case", "Case", case_text(case)),
         ("log", "Log", f"<details><summary>log.txt</summary><pre>{html.escape(log.text.strip())}</pre></details>"),
         ("files", "Files", files(run)),
     ]
-    return document(run.resolve().name, "report of a run of Scree", description(run / "original.prm"), sections)
+    return document(run.resolve().name, "report of a run of Scree", description(case / "original.prm"), sections)
 
 
 def document(title, kind, text, sections):
@@ -253,7 +278,7 @@ def _write(arguments):
 def main():
     parser = Command("scree-report", __doc__)
     parser.add_argument("run", type=pathlib.Path, help="run folder, for instance results/quickstart")
-    parser.add_argument("--field", help="of the pictures of soil points, as for scree-render; default: mean_effective_stress")
+    parser.add_argument("--field", help="of the pictures of soil points, as for scree-render")
     parser.add_argument("--times", help="times of these pictures in s, separated by commas; default: first, 1/4, 1/2 and last")
     parser.add_argument("--output", type=pathlib.Path, help="another file; default: report.html in the run folder")
     parser.run(_write)

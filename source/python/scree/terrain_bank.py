@@ -10,7 +10,6 @@ bound has a star.
 
 import itertools
 import pathlib
-import re
 import subprocess
 
 import numpy as np

@@ -98,8 +98,12 @@ void test_regimes()
       beside.conductivity = 0.99 * scene.conductivity;
       expect_regime(beside, threshold == thresholds::drained_below ? "coupled" : "undrained");
     }
-  // Undrained in its motion, but the run lasts until the pressure leaves.
   scene.conductivity /= 2;
+  expect_regime(scene, "undrained");
+  scene.water_fills_soil = false; // The water outside moves on its own.
+  expect_regime(scene, "coupled");
+  scene.water_fills_soil = true;
+  // Undrained in its motion, but the run lasts until the pressure leaves.
   scene.end_time = 100;
   expect_regime(scene, "coupled");
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A state script for ParaView: `paraview --script=paraview.py`, or `pvpython paraview.py`. It uses paraview.simple only."""
+"""A state script for ParaView: `paraview --script=FILE`, or `pvpython FILE`. It uses paraview.simple only. Its name is that of no module."""
 
 import pathlib
 
@@ -41,8 +41,8 @@ def write_ground(run, box, output):
         return False
     x, y = terrain.places(ground)
     places = np.stack([*np.meshgrid(x - origin[0], y - origin[1]), np.nan_to_num(ground.values, nan=box.lower[2])], axis=-1).reshape(-1, 3)
-    head = f"# vtk DataFile Version 3.0\nground\nASCII\nDATASET STRUCTURED_GRID\nDIMENSIONS {len(x)} {len(y)} 1\nPOINTS {len(places)} float"
-    np.savetxt(output, places, "%.7g", header=head, comments="")
+    head = f"# vtk DataFile Version 3.0\nground\nASCII\nDATASET STRUCTURED_GRID\nDIMENSIONS {len(x)} {len(y)} 1\nPOINTS {len(places)} double"
+    np.savetxt(output, places, "%.10g", header=head, comments="")
     return True
 
 
