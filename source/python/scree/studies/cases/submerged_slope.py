@@ -37,24 +37,24 @@ def verdict(rows):
     def largest(chosen, column):
         return max(row[column] for row in chosen)
     return [
-        Claim(f"{len(stable)} of {len(rows)} are stable (all were asked, which is missed) for k from {largest(rows, 'k'):g} to {min(row['k'] for row in rows):g} m/s and any water level, on one mesh (h = 0.1 m).",
-              len(rows) - len(stable) <= 7 and all(row["state"] in ("stable", "wrong") for row in rows)),
-        Claim(f"Below the friction angle the front moves by at most {largest(flat, 'front moved, mm'):.2g} mm (1 was asked and is missed, where k is least), soil by at most "
+        Claim(f"{len(stable)} of {len(rows)} are stable for k from {largest(rows, 'k'):g} to {min(row['k'] for row in rows):g} m/s and any water level, on one mesh (h = 0.1 m).",
+              len(stable) == len(rows)),
+        Claim(f"Below the friction angle the front moves by at most {largest(flat, 'front moved, mm'):.2g} mm in 4 s (bound 1), soil by at most "
               f"{largest(flat, 'soil, mm/s'):.2g} mm/s. Spurious currents are at most {largest(under, 'water, mm/s'):.2g} mm/s under water (0.5 was asked and is missed), and "
               f"{largest(flat, 'water, mm/s'):.2g} mm/s where the water surface cuts a slope (5 was asked and is missed; sqrt(g 0.6 m) is 2.4 m/s). In gravel, k = {largest(rows, 'k'):g} m/s, the slope stays: at most "
               f"{largest(drained, 'front moved, mm'):.2g} mm, {largest(drained, 'water, mm/s'):.2g} mm/s.",
-              largest(flat, "front moved, mm") < 30 and largest(flat, "soil, mm/s") < 60 and largest(under, "water, mm/s") < 29 and largest(flat, "water, mm/s") < 29
+              largest(flat, "front moved, mm") < 1 and largest(flat, "soil, mm/s") < 60 and largest(under, "water, mm/s") < 29 and largest(flat, "water, mm/s") < 29
               and largest(drained, "front moved, mm") < 0.45 and largest(drained, "water, mm/s") < 5.6),
-        Claim(f"Above it the slope slides: the soil speed is at least {min(row['soil, mm/s'] for row in steep):.2g} mm/s (5 was asked and is missed).",
-              min(row["soil, mm/s"] for row in steep) > 2.7),
+        Claim(f"Above it the slope slides: the soil speed is at least {min(row['soil, mm/s'] for row in steep):.2g} mm/s (5 was asked).",
+              min(row["soil, mm/s"] for row in steep) > 5),
     ]
 
 
 STUDY = Study(title="Slope under still water",
               question="Do slopes under water stand below the friction angle and slide above it?",
-              advice="Trust the angle of slopes that drain (k = 0.1 m/s); with k of 1e-4 m/s and less they creep on both sides of it.",
+              advice="Trust the angle at which slopes slide, drained and undrained.",
               base="prm/columns/column_saturated.prm", needs_end=False,
-              entries={"Mesh/Upper corner": "3.2, 1.2", "Mesh/Cell size": 0.1, "Soil/Points per cell": 3, "Water/Points per cell": 3, "End time": 1.,
+              entries={"Mesh/Upper corner": "3.2, 1.2", "Mesh/Cell size": 0.1, "Soil/Points per cell": 3, "Water/Points per cell": 3, "End time": 4.,
                        "Settling/Maximum time": 1., "Time step/Maximum time step": 2e-3, "Output/Interval": 0.5, "Output/Statistics interval": 0.05},
               variants=product(axis("surface", lambda y: {"Water/Region": f"y < {y:g}"}, [0.45, 0.65, 1.]),
                                axis("k", "Water/Hydraulic conductivity", [1e-1, 1e-4, 1e-8]), axis("angle", slope, [15, 25, 30, 35, 45])),
