@@ -152,38 +152,34 @@ namespace scree
     MotionReport<dim> report;
     LargestSquare largest;
     MotionSums<dim, Batch> sums;
-    const auto move = [&](const Block &block, const auto &average) {
-      motion.resize(block.n_points);
-      unsigned int first = 0;
-      for (const auto *cell = block.begin; cell != block.end; first += (cell++)->n_points)
-        {
-          move_cell<n, method>(body, *cell, field, time_step, keep, first, largest, sums);
-          average(*cell, first);
-        }
+    const auto move = [&](const Block &block) {
+      block.for_each_cell([&](const CellPoints<dim> &cell, const unsigned int first) {
+        move_cell<n, method>(body, cell, field, time_step, keep, first, largest, sums);
+        if (!projection)
+          apply_f_bar(f_bar, first, body.material_points(cell), motion);
+      });
     };
     const auto &cells = body.points.cells();
     const Block all{ cells.data(), cells.data() + cells.size(), 0, static_cast<unsigned int>(body.points.n_points()) };
     if (projection) // The vertices need the motion of all points.
       {
+        motion.resize(all.n_points);
         projection->clear(all.n_points);
-        move(all, [&](const CellPoints<dim> &cell, const unsigned int first) {
-          projection->add(body, cell, first, motion);
+        for_each_block(all, [&](const Block &block) {
+          move(block);
+          projection->add(body, block, motion);
         });
         projection->fit();
       }
     for_each_block(all, [&](Block block) {
       if (projection)
-        {
-          unsigned int first = block.first;
-          for (const auto *cell = block.begin; cell != block.end; first += (cell++)->n_points)
-            projection->apply(*cell, first, motion);
-        }
+        block.for_each_cell(
+            [&](const CellPoints<dim> &cell, const unsigned int first) { projection->apply(cell, first, motion); });
       else
         {
           block.first = 0;
-          move(block, [&](const CellPoints<dim> &cell, const unsigned int first) {
-            apply_f_bar(f_bar, first, body.material_points(cell), motion);
-          });
+          motion.resize(block.n_points);
+          move(block);
         }
       update_state(body, block, time_step, damping_time, report.material);
     });

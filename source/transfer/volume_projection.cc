@@ -70,39 +70,43 @@ namespace scree
 
 
   template <int dim>
-  void VolumeProjection<dim>::add(const SoilBody<dim> &body,
-                                  const CellPoints<dim> &cell,
-                                  const unsigned int first,
-                                  const BlockMotion<dim> &motion)
+  void
+  VolumeProjection<dim>::add(const SoilBody<dim> &body, const CellBlock<dim> &block, const BlockMotion<dim> &motion)
   {
-    const auto points = body.material_points(cell);
-    std::array<VertexRow<dim>, n_sums> rows;
-#pragma GCC unroll 16 // here and below, so that the rows are registers
-    for (auto &row : rows)
-      row = VertexRow<dim>{};
-    for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n) DEAL_II_ALWAYS_INLINE {
-      const unsigned int p  = first + indices[0];
+    // The slots of cells lie one behind the other.
+    const auto points = body.material_points(*block.begin);
+    for_each_batch(block.n_points, [&](const BatchIndices &indices, const unsigned int) {
+      const unsigned int p  = block.first + indices[0];
       const Batch square    = elastic_square_under_stress(points, indices);
       const auto has_stress = square > 0.;
-      const Batch zero = simd::broadcast<Batch>(0.), one = simd::broadcast<Batch>(1.);
-      const Batch own = 0.5 * simd::log<Batch>(simd::select<Batch>(has_stress, square, one));
+      const Batch own = 0.5 * simd::log<Batch>(simd::select<Batch>(has_stress, square, simd::broadcast<Batch>(1.)));
       store(simd::select<Batch>(has_stress, own, simd::broadcast<Batch>(std::numeric_limits<double>::quiet_NaN())),
             &elastic_strain[p]);
+      store(simd::select<Batch>(has_stress, load(&motion.volume[p]), simd::broadcast<Batch>(0.)), &weight[p]);
       Batch increment[dim * dim];
 #pragma GCC unroll 9
       for (unsigned int c = 0; c < dim * dim; ++c)
         increment[c] = load(&motion.deformation_increment[c * motion.pitch + p]);
-      std::array<double, batch_size> weights, strains, changes, shears;
-      store(simd::select<Batch>(has_stress, load(&motion.volume[p]), zero), weights.data());
-      store(own, strains.data());
-      store(load(&motion.volume_change[p]), changes.data());
-      store(shear_of<dim>(increment), shears.data());
+      store(shear_of<dim>(increment), &shear_of_step[p]);
+    });
+    block.for_each_cell([&](const CellPoints<dim> &cell, const unsigned int first) { add_cell(cell, first, motion); });
+  }
 
-      for (unsigned int l = 0; l < n; ++l)
+
+  template <int dim>
+  void
+  VolumeProjection<dim>::add_cell(const CellPoints<dim> &cell, const unsigned int first, const BlockMotion<dim> &motion)
+  {
+    std::array<VertexRow<dim>, n_sums> rows;
+#pragma GCC unroll 16 // here and below, so that the rows are registers
+    for (auto &row : rows)
+      row = VertexRow<dim>{};
+    for (unsigned int l = 0; l < cell.n_points; ++l)
+      if (const unsigned int p = first + l; weight[p] > 0.)
         {
-          const Point<dim> &x = cell.reference_location_of(indices[l]);
+          const Point<dim> &x = cell.reference_location_of(l);
           std::array<VertexRow<dim>, n_terms> distance, terms; // the former from 1 on
-          terms[0] = weights[l] * vertex_values(x);
+          terms[0] = weight[p] * vertex_values(x);
 #pragma GCC unroll 3
           for (unsigned int a = 0; a < dim; ++a)
             {
@@ -113,7 +117,7 @@ namespace scree
           for (unsigned int i = 0; i < n_terms; ++i)
             {
               rows[volume + i] += terms[i];
-              rows[strain + i] += terms[i] * strains[l];
+              rows[strain + i] += terms[i] * elastic_strain[p];
             }
           unsigned int k = n_terms;
 #pragma GCC unroll 3
@@ -121,10 +125,9 @@ namespace scree
 #pragma GCC unroll 3
             for (unsigned int j = i; j < n_terms; ++j, ++k)
               rows[volume + k] += terms[i] * distance[j];
-          rows[change] += terms[0] * changes[l];
-          rows[shear] += terms[0] * shears[l];
+          rows[change] += terms[0] * motion.volume_change[p];
+          rows[shear] += terms[0] * shear_of_step[p];
         }
-    });
     sums.activate_cell(cell.cell);
     const unsigned int *vertices = grid.vertices().nodes(cell.cell);
 #pragma GCC unroll 4

@@ -3,6 +3,7 @@
 #define scree_transfer_f_bar_h
 
 #include <scree/materials/material.h>
+#include <scree/particles/cell_points.h>
 #include <scree/simd/records.h>
 #include <scree/tensor/matrix.h>
 #include <scree/transfer/transfer_parameters.h>
@@ -73,6 +74,24 @@ namespace scree
     const Batch square = stress[0] * stress[0] + stress[1] * stress[1] + stress[2] * stress[2];
     return simd::select<Batch>(square > 0., determinant_of_components<dim>(b), zero);
   }
+
+  /// Cells one behind the other, and the points in them.
+  template <int dim>
+  struct CellBlock
+  {
+    const CellPoints<dim> *begin, *end;
+    unsigned int first    = 0; ///< number of the first point in BlockMotion
+    unsigned int n_points = 0;
+
+    /// Calls `act(cell, number of its first point)`.
+    template <typename Act>
+    void for_each_cell(const Act &act) const
+    {
+      unsigned int number = first;
+      for (const CellPoints<dim> *cell = begin; cell != end; number += (cell++)->n_points)
+        act(*cell, number);
+    }
+  };
 
   /// Cell averages against volumetric locking, on the motion of one cell's points.
   ///

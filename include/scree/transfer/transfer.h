@@ -77,13 +77,7 @@ namespace scree
                    LargestSquare &largest,
                    MotionSums<dim, Batch> &sums);
 
-    /// Cells one behind the other.
-    struct Block
-    {
-      const CellPoints<dim> *begin, *end;
-      unsigned int first    = 0; // point in `motion`
-      unsigned int n_points = 0;
-    };
+    using Block = CellBlock<dim>;
 
     /// Calls `act` with the blocks of some cells, which have at most `block_size` points, unless a cell has more.
     template <typename Act>

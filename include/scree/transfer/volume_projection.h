@@ -42,15 +42,12 @@ namespace scree
     void clear(const unsigned int n_points)
     {
       sums.clear();
-      elastic_strain.resize(n_points + batch_size);
+      for (auto *list : { &elastic_strain, &weight, &shear_of_step })
+        list->resize(n_points + batch_size);
     }
 
-    /// Adds the points of a cell, as they are at the start of the step but for their motion.
-    /// @param first of the cell's points in `motion`
-    void add(const SoilBody<dim> &body,
-             const CellPoints<dim> &cell,
-             const unsigned int first,
-             const BlockMotion<dim> &motion);
+    /// Adds the points of some cells, as they are at the start of the step but for their motion.
+    void add(const SoilBody<dim> &body, const CellBlock<dim> &block, const BlockMotion<dim> &motion);
 
     /// Fits the linear functions to the sums of all ranks. Collective.
     void fit();
@@ -60,6 +57,8 @@ namespace scree
     void apply(const CellPoints<dim> &cell, const unsigned int first, BlockMotion<dim> &motion) const;
 
   private:
+    void add_cell(const CellPoints<dim> &cell, const unsigned int first, const BlockMotion<dim> &motion);
+
     static constexpr unsigned int n_vertices = 1 << dim, n_terms = 1 + dim, n_moments = n_terms * (n_terms + 1) / 2;
 
     // Sums at a vertex, weighted with V psi_a: products of 1 and the distance from the vertex in cells; these times
@@ -72,7 +71,11 @@ namespace scree
 
     const BackgroundGrid<dim> &grid;
     NodeValues<dim, n_sums> sums;
-    std::vector<double> elastic_strain; // ln J_e at the start of the step, as in `motion`; not a number without stress
+
+    // Of the points, as in BlockMotion
+    std::vector<double> elastic_strain; // ln J_e at the start of the step; not a number without stress
+    std::vector<double> weight;         // V, m^3; 0 without stress
+    std::vector<double> shear_of_step;  // gamma
   };
 } // namespace scree
 
