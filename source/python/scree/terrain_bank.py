@@ -10,6 +10,7 @@ bound has a star.
 
 import itertools
 import pathlib
+import re
 import subprocess
 
 import numpy as np

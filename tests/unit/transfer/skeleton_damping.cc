@@ -49,7 +49,7 @@ void test()
               to[c] = turned.access_raw_entry(c) + change.back();
             }
         }
-      of_cell.finish(body, cell, cell.n_points, motion, rate);
+      of_cell.finish(body, cell, cell.n_points, motion.material_motion(0, 1., 0.), rate);
       for (unsigned int p = 0; p < cell.n_points; ++p)
         for (unsigned int c = 0; c < n; ++c)
           expect(cell.properties_of(p)[damping + c], rate * change[p * n + c], 1e-9, "damping");
