@@ -71,7 +71,7 @@ struct Soil
           for (unsigned int c = 0; c < dim * dim; ++c)
             motion.deformation_increment[c * motion.pitch + p] = points[p].own_increment[c / dim][c % dim];
         }
-      projection.add(body, cell, first, motion);
+      projection.add(body, { &cell, &cell + 1, first, cell.n_points }, motion);
     });
     projection.fit();
     for_each_cell([&](const auto &cell, const unsigned int first) { projection.apply(cell, first, motion); });
