@@ -470,7 +470,7 @@ namespace scree
                            "; " + short_text(100. * share / mass_scaling) + " % with true ones",
                        short_text(100. * bound_of_motion) + " %",
                        !(share <= bound_of_motion),
-                       "\"Mass scaling\" is too large" });
+                       "use a smaller \"Mass scaling\"" });
     return list;
   }
 

@@ -189,7 +189,6 @@ namespace scree
         auto parameters = std::make_unique<Parameters>(given.case_file);
         parameters->set("", "Output directory", path + '/' + name);
         parameters->set("Output", "Screen", "nothing");
-        parameters->set("Probes", "Displacement", "true");
         if (given.output.graphics_kind() == Pictures::none)
           parameters->set("Output", "Graphics", "points");
         parameters->reduce_strength(factor);

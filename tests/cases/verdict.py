@@ -65,8 +65,9 @@ def slide():
     check(abs(row["Run-out length (m)"] - length) < 0.07, f"length {row['Run-out length (m)']} for {length}")
     for name, wanted in (("Toe", way * np.cos(np.pi / 6)), ("Largest", way)):
         check(abs(row[f"{name} displacement (m)"] / wanted - 1) < 0.02, f"{name} displacement {row[f'{name} displacement (m)']} for {wanted}")
-    check(abs(row["Fall height (m)"] - fall) < 0.2, f"fall {row['Fall height (m)']} for {fall}")
-    check(abs(row["Travel angle (degrees)"] - 30) < 2, f"angle {row['Travel angle (degrees)']}")
+    # The surface is known to half a cell of 0.2 m: 2.1 degrees.
+    check(abs(row["Fall height (m)"] - fall) < 0.12, f"fall {row['Fall height (m)']} for {fall}")
+    check(abs(row["Travel angle (degrees)"] - 30) < 2.5, f"angle {row['Travel angle (degrees)']}")
     gained = 0.16 / np.cos(np.pi / 6) * 1.2 * way * np.cos(np.pi / 6)
     check(abs(row["Deposit volume (m^3)"] / gained - 1) < 0.15, f"volume {row['Deposit volume (m^3)']} for {gained}")
     check(abs(row["Run-out H/L (-)"] - row["Fall height (m)"] / row["Run-out length (m)"]) < 1e-9, "H/L")

@@ -107,7 +107,7 @@ def obstacle_wall(scree):
     rest = time > time[-1] - 0.305
     lever = -table["Obstacle Wall moment z (N m)"][rest].sum() / force[rest].sum()
     check("wall: largest force after 1.45 s, N", max(force[time > 1.45]), 0.9 * 1920, 1.1 * 1920)
-    check("wall: force of the deposit, N", force[rest].mean(), 0.9 * 1610, 1.1 * 1610)
+    check("wall: force of the deposit, N", force[rest].mean(), 0.9 * 1380, 1.1 * 1380)
     check("wall: its height, m", lever, 0.9 * 0.126, 1.1 * 0.126)
     # Nothing pulls the wall back.
     check("wall: vertical force on the smooth wall", max(map(abs, table["Obstacle Wall force y (N)"])), 0, 1e-9 * weight)
@@ -277,7 +277,7 @@ def obstacle_lifted_gate(scree):
                           for column in ("Water front 90 % (m)", "Water front 99 % (m)")))
     check("gate at 20 m/s: largest difference of a front from the dam break", errors[0], 0, 0.05)
     check("gate at 40 m/s: over that at 20 m/s", errors[1] / errors[0], 0, 0.7)
-    check_gain("gate of the case", run(scree, "bed/gate", "slow", {}))
+    check_gain("gate of the case", run(scree, "bed/gate", "slow", {}), most=1.1e-3, asked=1e-3)
 
 
 def obstacle_moving_tank(scree):

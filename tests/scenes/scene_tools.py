@@ -3,14 +3,13 @@
 
 import math
 import os
-import re
 import subprocess
 import sys
 
 import numpy as np
 
 from scree.closed_forms import GRAVITY
-from scree.results import read_points, read_statistics
+from scree.results import read_checks, read_points, read_statistics
 from scree.variants import write_variant
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -39,9 +38,14 @@ def log_of(run_folder):
         return file.read()
 
 
+def check_of(run_folder, name):
+    """What a run has found in a check of itself."""
+    return next(found for found in read_checks(run_folder) if found.name == name)
+
+
 def largest_gain(run_folder):
     """The largest energy gain of all steps over the released energy, as the log names it."""
-    return float(re.search(r"largest energy gain (\S+) %", log_of(run_folder).replace("\n            ", " ")).group(1)) / 100
+    return float(check_of(run_folder, "largest energy gain").value.split()[0]) / 100
 
 
 def pictures(entries=None):

@@ -79,9 +79,10 @@ namespace scree
   template <int dim>
   struct CellBlock
   {
-    const CellPoints<dim> *begin, *end;
-    unsigned int first    = 0; ///< number of the first point in BlockMotion
-    unsigned int n_points = 0;
+    const CellPoints<dim> *begin; ///< first cell
+    const CellPoints<dim> *end;   ///< past the last one
+    unsigned int first    = 0;    ///< number of the first point in BlockMotion
+    unsigned int n_points = 0;    ///< points of the cells
 
     /// Calls `act(cell, number of its first point)`.
     template <typename Act>

@@ -163,30 +163,42 @@ const UnitTest balance_checks_test("balance_checks", [] {
 // at rest
 // Checks      within bounds: mass balance 0
 // in motion: 20 J are missing
-// Checks      within bounds: mass balance 0; momentum balance 0; largest energy gain 0 %;
-//             numerical dissipation 20 % of the released energy
+// Checks      within bounds: mass balance 0; momentum balance 0; largest energy gain 0 %; numerical
+//             dissipation 20 % of the released energy
 // stopped, with a gain of 2 J
-// Checks      out of bounds: largest energy gain 2 %, t = 0 s (bound 0.5 %)
-//             within bounds: mass balance 0; momentum balance 0;
-//             numerical dissipation 18.5 % of the released energy
+// Checks      fault: largest energy gain 2 %, t = 0 s (bound 0.5 %); what to do: use the default
+//             transfer and F-bar, and halve "Courant number"
+//             within bounds: mass balance 0; momentum balance 0; numerical dissipation 18.5 % of the
+//             released energy
 // a bed that gives 3 J
-// Checks      out of bounds: largest energy gain 2 %, t = 0 s (bound 0.5 %);
-//             largest energy gain of the bed 3 %, t = 0 s (bound 0.5 %)
-//             within bounds: mass balance 0; momentum balance 0;
-//             numerical dissipation 18.5 % of the released energy
+// Checks      fault: largest energy gain 2 %, t = 0 s (bound 0.5 %); what to do: use the default
+//             transfer and F-bar, and halve "Courant number"
+//             fault: largest energy gain of the bed 3 %, t = 0 s (bound 0.5 %); what to do: use the
+//             default transfer and F-bar, and halve "Courant number"
+//             within bounds: mass balance 0; momentum balance 0; numerical dissipation 18.5 % of the
+//             released energy
 // 1.6 kg and 0.16 N s too much
-// Checks      out of bounds: mass balance 0.01, t = 0 s (bound 1e-06);
-//             momentum balance 0.001, t = 0 s (bound 1e-06);
-//             largest energy gain 2 %, t = 0 s (bound 0.5 %);
-//             largest energy gain of the bed 3 %, t = 0 s (bound 0.5 %)
+// Checks      fault: mass balance 0.01, t = 0 s (bound 1e-06); what to do: report the case as a fault
+//             of Scree: no entry should do this
+//             fault: momentum balance 0.001, t = 0 s (bound 1e-06); what to do: report the case as a
+//             fault of Scree: no entry should do this
+//             fault: largest energy gain 2 %, t = 0 s (bound 0.5 %); what to do: use the default
+//             transfer and F-bar, and halve "Courant number"
+//             fault: largest energy gain of the bed 3 %, t = 0 s (bound 0.5 %); what to do: use the
+//             default transfer and F-bar, and halve "Courant number"
 //             within bounds: numerical dissipation 18.5 % of the released energy
 // masses times 4, in motion: 80 J are missing
-// Checks      out of bounds:
-//             mean kinetic energy 80 % of the work, with masses times 4; 20 % with true ones (bound 0.1 %, else "Mass scaling" is too large)
-//             within bounds: mass balance 0; momentum balance 0; largest energy gain 0 %;
-//             numerical dissipation 20 % of the released energy
+// Checks      fault: mean kinetic energy 80 % of the work, with masses times 4; 20 % with true ones
+//             (bound 0.1 %); what to do: use a smaller "Mass scaling"
+//             within bounds: mass balance 0; momentum balance 0; largest energy gain 0 %; numerical
+//             dissipation 20 % of the released energy
 // layout
-// Checks      out of bounds: second check of a long name 2 (bound 1)
-//             worst: a point at (0, 0) m, t = 1 s: so it is
-//             within bounds: first check of a long name 1; third check of a long name 3;
-//             fourth check of a long name 4
+// Checks      fault: third check of a long name 3 (bound 2); a point at (0, 0) m, t = 1 s: so it is;
+//             what to do: write "auto"
+//             resolution: second check of a long name 2 m (bound 1 m); what to do: use smaller cells
+//             within bounds: first check of a long name 1; fourth check of a long name 4
+// check,value,bound,class,is_exceeded,place,remedy
+// "first check of a long name","1","","information",0,"",""
+// "second check of a long name","2 m","1 m","resolution",1,"","use smaller cells"
+// "third check of a long name","3","2","fault",1,"a point at (0, 0) m, t = 1 s: so it is","write ""auto"""
+// "fourth check of a long name","4","5","fault",0,"",""

@@ -13,7 +13,7 @@ SPEED, MODULUS, AMPLITUDE = math.sqrt(10.), 1e4, 1e-5  # of the wave, m/s; Pa; m
 TIME = 4.25 / SPEED  # s
 
 METHODS = methods("linear", "PIC rate 5", {"TPIC": transfer("TPIC")}, "2 x 2 points", "3 x 3 points", "Courant number 0.15", "Courant number 0.9",
-                  "projected F-bar", without="Water")
+                  "modified F-bar", without="Water")
 
 
 def mesh(h):
