@@ -62,8 +62,11 @@ def f_bar(at, n_cells, h, V, strain, is_loaded, dF):
     """Projected F-bar, with the elastic volume strain ln J_e of the points. The scale of dF, also along the third axis, and the change of volume."""
     change, green = np.linalg.det(dF), (dF.transpose(0, 2, 1)@dF - np.eye(2))/2
     shear = np.sqrt(2*((green**2).sum((1, 2)) - np.trace(green, axis1=1, axis2=2)**2/3))
-    vertex = (at.number + at.number//n_cells)[:, None] + [0, 1, n_cells + 1, n_cells + 2]
-    away = at.place[:, None] - [[0, 0], [1, 0], [0, 1], [1, 1]]  # from the vertices, in cells, [point, 4 vertices, axis]
+    corners = np.array([[0, 0], [1, 0], [0, 1], [1, 1]])
+    away = at.place[:, None] - corners  # from the vertices, in cells, [point, 4 vertices, axis]
+    number = np.stack(np.divmod(at.number, n_cells[0])[::-1], 1)[:, None] + corners  # of the vertices along each axis
+    vertex = number@[1, n_cells[0] + 1]
+    seen = h**2/2**((number == 0) | (number == n_cells)).sum(2)  # volume of the box about a vertex
     psi = (1 - abs(away)).prod(2)
     weight = psi*np.where(is_loaded, V, 0)[:, None]
     sums = lambda values: np.bincount(vertex.ravel(), (weight*values).ravel())[vertex]
@@ -72,7 +75,7 @@ def f_bar(at, n_cells, h, V, strain, is_loaded, dF):
     axes, deviation = range(2), strain[:, None] - mean(strain[:, None])
     away = away - np.stack([mean(away[..., a]) for a in axes], 2)  # from the centre of the points about a vertex
     variance = np.stack([np.stack([mean(away[..., a]*away[..., b]) for b in axes], 2) for a in axes], 3)
-    least = (.002 + .2*np.maximum(0, 1 - 2*volume/h**2)**2)[..., None, None]*np.eye(2)
+    least = (.002 + .2*np.maximum(0, 1 - 2*volume/seen)**2)[..., None, None]*np.eye(2)
     slope = np.linalg.solve(variance + least, np.stack([mean(away[..., a]*deviation) for a in axes], 2)[..., None])[..., 0]
     rest = psi*(1 - np.exp(-100*mean(shear[:, None])))*(deviation - (slope*away).sum(2))
     averaged = np.where(is_loaded, (psi*mean(change[:, None])).sum(1)*np.exp(-rest.sum(1)), change)
@@ -134,7 +137,7 @@ def step(soil):
     soil.x = soil.x + TIME_STEP*v_bar
     dF = np.eye(2) + TIME_STEP*L
     strain = np.log(soil.b.prod(1) - soil.b_xy**2*soil.b[:, 2])/2  # ln J_e
-    scale, change_of_volume = f_bar(at, CELLS[0], H, soil.V, strain, (soil.stress**2).sum(1) > 0, dF)
+    scale, change_of_volume = f_bar(at, CELLS, H, soil.V, strain, (soil.stress**2).sum(1) > 0, dF)
     soil.V = soil.V*change_of_volume
     update_stress(soil, dF, scale)
 

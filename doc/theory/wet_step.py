@@ -169,7 +169,7 @@ def step(soil, water):
     water.p, water.dp = w.psi@p, np.stack([slope@p for slope in w.psi_slopes], 1)
     # Soil: tau = 2 G eps + lambda tr(eps) I of the logarithmic strain eps of b_e; F-bar scales the third axis, too.
     strain, is_loaded = np.log(np.linalg.det(soil.b)*soil.b_zz)/2, (np.einsum("pii->pi", soil.stress)**2).sum(1) > 0
-    scale, change_of_volume = f_bar(s, CELLS[0], H, soil.V, strain, is_loaded, soil.dF)
+    scale, change_of_volume = f_bar(s, CELLS, H, soil.V, strain, is_loaded, soil.dF)
     dF, soil.V, soil.b_zz = scale[:, None, None]*soil.dF, soil.V*change_of_volume, soil.b_zz*scale**2
     soil.b = dF@soil.b@dF.transpose(0, 2, 1)
     squares, axes = np.linalg.eigh(soil.b)

@@ -146,12 +146,17 @@ namespace scree
   void VolumeProjection<dim>::fit()
   {
     sums.add_contributions();
-    const double full    = Utilities::fixed_power<dim>(grid.cell_size());
-    const auto &vertices = sums.active_nodes();
+    const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
+    const auto &vertices     = sums.active_nodes();
     for_each_batch(vertices.size(), [&](const BatchIndices &indices, const unsigned int) {
       RecordPointers<double> records;
+      Batch full; // volume of the box that a vertex sees, half of it at a face
       for (unsigned int l = 0; l < batch_size; ++l)
-        records[l] = apart(sums[vertices[indices[l]]]);
+        {
+          const unsigned int vertex = vertices[indices[l]];
+          records[l]                = apart(sums[vertex]);
+          full[l]                   = cell_volume / (1u << __builtin_popcount(grid.vertices().faces(vertex)));
+        }
       Batch sum[n_sums], result[n_fits];
       simd::load_records<n_sums>(as_constant(records), sum);
       const Batch zero = simd::broadcast<Batch>(0.), one = simd::broadcast<Batch>(1.);

@@ -128,16 +128,16 @@ void average(const std::string &f_bar, const PropertyLayout<dim> &layout, std::v
 template <int dim>
 struct Vertex
 {
-  double volume = 0, change = 0, shear = 0, strain = 0;
+  double volume = 0, change = 0, shear = 0, strain = 0, seen = 0; // seen: volume of the box about the vertex
   Tensor<1, dim> distance, strain_times_distance;
   Tensor<2, dim> square_of_distance;
 
   /// ln J_e less the linear function of the vertex, times the part of it that relaxes.
-  double excess(const double own, const Tensor<1, dim> &from_vertex, const double full) const
+  double excess(const double own, const Tensor<1, dim> &from_vertex) const
   {
     const double mean           = strain / volume;
     const Tensor<1, dim> centre = distance / volume;
-    const double lack           = std::max(0., 1. - 2. * volume / full);
+    const double lack           = std::max(0., 1. - 2. * volume / seen);
     const Tensor<2, dim> one    = unit_symmetric_tensor<dim>();
     const Tensor<2, dim> variance =
         square_of_distance / volume - outer_product(centre, centre) + (0.002 + 0.2 * lack * lack) * one;
@@ -150,10 +150,11 @@ struct Vertex
 /// F-bar of all points by linear functions of the cells' vertices, of which one is the origin.
 template <int dim>
 void project(const std::vector<CellPoints<dim>> &cells,
-             const double cell_size,
+             const BackgroundGrid<dim> &grid,
              const PropertyLayout<dim> &layout,
              std::vector<std::vector<Reference<dim>>> &points)
 {
+  const double cell_size = grid.cell_size();
   std::map<std::array<long, dim>, Vertex<dim>> vertices;
   const auto for_each_vertex = [&](const auto &act) { // around each point under stress
     for (unsigned int c = 0; c < cells.size(); ++c)
@@ -172,7 +173,13 @@ void project(const std::vector<CellPoints<dim>> &cells,
                   distance[a]             = x[a] - side;
                   psi *= 1. - std::abs(distance[a]);
                 }
-              act(points[c][p], v, std::log(J_e), psi, distance, vertices[key]);
+              Vertex<dim> &vertex = vertices[key];
+              vertex.seen         = Utilities::fixed_power<dim>(cell_size);
+              for (unsigned int a = 0; a < dim; ++a)
+                if (key[a] == std::lround(grid.lower_corner()[a] / cell_size) ||
+                    key[a] == std::lround(grid.upper_corner()[a] / cell_size))
+                  vertex.seen /= 2.;
+              act(points[c][p], v, std::log(J_e), psi, distance, vertex);
             }
   };
 
@@ -193,7 +200,7 @@ void project(const std::vector<CellPoints<dim>> &cells,
   double change = 0, rest = 0;
   for_each_vertex([&](auto &point, const unsigned int v, const double own, const double psi, auto x, auto &vertex) {
     change = (v == 0 ? 0 : change) + psi * vertex.change / vertex.volume;
-    rest   = (v == 0 ? 0 : rest) + psi * vertex.excess(own, x, Utilities::fixed_power<dim>(cell_size));
+    rest   = (v == 0 ? 0 : rest) + psi * vertex.excess(own, x);
     if (v + 1 < 1 << dim)
       return;
     change *= std::exp(-rest);
@@ -290,7 +297,7 @@ std::vector<std::vector<Reference<dim>>> reference_step(const SoilBody<dim> &bod
       expected.push_back(points);
     }
   if (f_bar == "projected")
-    project(cells, grid.cell_size(), body.layout, expected);
+    project(cells, grid, body.layout, expected);
   for (auto &points : expected)
     for (auto &point : points)
       update(one_by_one, body.layout, point, visited.report);
