@@ -50,11 +50,11 @@ def fields():
     case = {"End time": 1e-3, "Mesh/Cell size": 0.25, "Soil/Region": "x < 0.5", "Soil/Material": "linear elastic",
             "Soil/Initial porosity": 0.4, "Output/Interval": 1e-3, "Output/Graphics": "points and grid"}
     scalars = ["mean_effective_stress [Pa]", "deviatoric_stress [Pa]", "stress_ratio", "mass [kg]", "volume [m^3]", "body"]
-    dry = {"points": ["velocity [m/s]", "stress [Pa]", *scalars, "id"],
+    dry = {"points": ["velocity [m/s]", "stress [Pa]", "displacement [m]", *scalars, "id"],
            "grid": ["velocity [m/s]", "density [kg/m^3]", "mean_effective_stress [Pa]"]}
     water = {"water": ["velocity [m/s]", "seepage_velocity [m/s]", "pressure [Pa]", "mass [kg]", "volume [m^3]", "porosity", "inside_soil"],
              "grid": ["velocity [m/s]", "water_velocity [m/s]", *dry["grid"][1:], "pressure [Pa]", "porosity", "saturation"]}
-    wet = {**water, "points": [*dry["points"][:2], "seepage_velocity [m/s]", *scalars, "porosity", "pore_pressure [Pa]", "id"]}
+    wet = {**water, "points": [*dry["points"][:2], "seepage_velocity [m/s]", "displacement [m]", *scalars, "porosity", "pore_pressure [Pa]", "id"]}
     for name, entries, wanted in (("dry", {}, dry), ("double", {"Water/Region": "x < 0.7"}, wet),
                                   ("single", {"Water/Point sets": "single"}, wet), ("pure", {"Bodies": "none", "Water/Region": "x < 0.7"}, water)):
         entries = {key: value for key, value in {**case, **entries}.items() if name != "pure" or not key.startswith("Soil")}
