@@ -19,7 +19,7 @@ namespace scree
   /// volume strain relaxes to what linear functions carry, as far as the soil shears. The volume of a point changes by
   /// dJ_p, and V/J_e stays that of the point.
   ///
-  /// sum V dJ is that of the own dJ, sum V r is 0, linear fields pass unchanged and the stored energy does not grow
+  /// sum V dJ is that of the own dJ, sum V r is 0, linear fields pass but for a ridge, the stored energy does not grow
   /// (doc/theory/single_phase.md). Points without stress (separated grains) keep their own dJ and take no part.
   template <int dim>
   class VolumeProjection
