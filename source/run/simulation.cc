@@ -261,8 +261,8 @@ namespace scree
 
   namespace
   {
-    const std::string remedy_for_instability =
-        "Remedies: a smaller 'Courant number' in subsection Time step, 'F-bar = modified' in subsection Stabilisation.";
+    const std::string remedy_for_instability = "Remedies: a smaller 'Courant number' in subsection Time step, 'F-bar = "
+                                               "projected' in subsection Stabilisation.";
 
     /// What and where the fastest point of this rank is, its speed beside, m/s; "" and 0 without points.
     template <int dim>
