@@ -72,13 +72,17 @@ def f_bar(at, n_cells, h, V, strain, is_loaded, dF):
     sums = lambda values: np.bincount(vertex.ravel(), (weight*values).ravel())[vertex]
     volume = np.maximum(sums(1), 1e-300)
     mean = lambda values: sums(values)/volume  # about the vertices
-    axes, deviation = range(2), strain[:, None] - mean(strain[:, None])
+    axes = range(2)
     away = away - np.stack([mean(away[..., a]) for a in axes], 2)  # from the centre of the points about a vertex
     variance = np.stack([np.stack([mean(away[..., a]*away[..., b]) for b in axes], 2) for a in axes], 3)
     least = (.002 + .2*np.maximum(0, 1 - 2*volume/seen)**2)[..., None, None]*np.eye(2)
-    slope = np.linalg.solve(variance + least, np.stack([mean(away[..., a]*deviation) for a in axes], 2)[..., None])[..., 0]
-    rest = psi*(1 - np.exp(-100*mean(shear[:, None])))*(deviation - (slope*away).sum(2))
-    averaged = np.where(is_loaded, (psi*mean(change[:, None])).sum(1)*np.exp(-rest.sum(1)), change)
+
+    def linear(values, kept_slope):  # the functions l_a of the vertices, at the points
+        slope = np.linalg.solve(variance + least, np.stack([mean(away[..., a]*values[:, None]) for a in axes], 2)[..., None])[..., 0]
+        return mean(values[:, None]) + kept_slope*(slope*away).sum(2)
+    relaxed = 1 - np.exp(-100*mean(shear[:, None]))
+    rest = (psi*relaxed*(strain[:, None] - linear(strain, 1))).sum(1)
+    averaged = np.where(is_loaded, (psi*linear(change, .25)).sum(1)*np.exp(-rest), change)
     return np.cbrt(averaged/change), averaged
 
 

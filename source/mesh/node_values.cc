@@ -203,9 +203,9 @@ namespace scree
   template class NodeValues<3, 6>;
   template class NodeValues<3, 7>;
   template class NodeValues<2, 8>;  // normals to choose from, between bodies
-  template class NodeValues<2, 12>; // fits of the elastic volume strain, see VolumeProjection
+  template class NodeValues<2, 16>; // linear functions about vertices, see VolumeProjection
   template class NodeValues<3, 11>;
-  template class NodeValues<3, 16>;
+  template class NodeValues<3, 20>;
   template class NodeValues<2, 18>; // moments of the points of two bodies
   template class NodeValues<3, 28>;
 } // namespace scree

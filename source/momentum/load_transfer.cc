@@ -210,8 +210,7 @@ namespace scree
     if (mass <= 0.)
       return {};
     // Along the patch the heavy nodes lead. A marker that followed the light ones of its top cell would lean with them,
-    // and its load on: under modified F-bar, which leaves a cell little stiffness against leaning, columns then tip
-    // over.
+    // and its load on.
     Tensor<1, dim> velocity = with_soil / mass;
     if (sum > 0.)
       velocity[load.normal_axis()] = with_load[load.normal_axis()] / sum;

@@ -176,6 +176,8 @@ namespace scree
       add_value(row, "Kinetic energy", "J", now.sums.kinetic);
       add_value(row, "Potential energy", "J", now.sums.potential);
       add_value(row, "Elastic energy", "J", now.sums.elastic);
+      if (!now.bodies.empty())
+        add_value(row, "Energy of the averaging", "J", state.averaging_energy());
       add_value(row, "Plastic dissipation", "J", totals.material.plastic_dissipation);
       add_value(row, "Wall dissipation", "J", balance.wall_dissipation);
       add_value(row, "Numerical dissipation", "J", state.numerical_dissipation());

@@ -183,6 +183,8 @@ namespace scree
         }
       update_state(body, block, time_step, damping_time, report.material);
     });
+    if (projection)
+      report.material.averaging_work += projection->kept_work();
     report.largest_speed = largest.speed();
     report.sums          = sums.of_lanes();
     return report;

@@ -16,6 +16,11 @@ namespace scree
     /// k: shear of 1 % relaxes the elastic volume strain by the factor 1/e.
     constexpr double relaxation = 100.;
 
+    /// Part of the slope that is kept of the volume change. Without it the change is too small at a surface, and soil
+    /// that dilates flows too easily; all of it has patterns that the pore pressure does not see, and undrained soil
+    /// gets stripes (doc/developer/development_log.md, "Projected F-bar").
+    constexpr double slope_of_change = 0.25;
+
     /// Squares of cells added to the variance of the points' places, which is 1/6 where points fill the cells: always,
     /// and where points fill none of what a vertex sees, so that a few points set no slope.
     constexpr double least_variance = 0.002, variance_of_few = 0.2;
@@ -76,13 +81,16 @@ namespace scree
     // The slots of cells lie one behind the other.
     const auto points = body.material_points(*block.begin);
     for_each_batch(block.n_points, [&](const BatchIndices &indices, const unsigned int) {
-      const unsigned int p  = block.first + indices[0];
-      const Batch square    = elastic_square_under_stress(points, indices);
+      const unsigned int p = block.first + indices[0];
+      Batch trace;
+      const Batch square    = elastic_square_under_stress(points, indices, trace);
       const auto has_stress = square > 0.;
       const Batch own = 0.5 * simd::log<Batch>(simd::select<Batch>(has_stress, square, simd::broadcast<Batch>(1.)));
       store(simd::select<Batch>(has_stress, own, simd::broadcast<Batch>(std::numeric_limits<double>::quiet_NaN())),
             &elastic_strain[p]);
-      store(simd::select<Batch>(has_stress, load(&motion.volume[p]), simd::broadcast<Batch>(0.)), &weight[p]);
+      const Batch volume = simd::select<Batch>(has_stress, load(&motion.volume[p]), simd::broadcast<Batch>(0.));
+      store(volume, &weight[p]);
+      store(1. / 3. * trace * volume, &stress_volume[p]);
       Batch increment[dim * dim];
 #pragma GCC unroll 9
       for (unsigned int c = 0; c < dim * dim; ++c)
@@ -118,6 +126,7 @@ namespace scree
             {
               rows[volume + i] += terms[i];
               rows[strain + i] += terms[i] * elastic_strain[p];
+              rows[change + i] += terms[i] * (motion.volume_change[p] - 1.);
             }
           unsigned int k = n_terms;
 #pragma GCC unroll 3
@@ -125,7 +134,6 @@ namespace scree
 #pragma GCC unroll 3
             for (unsigned int j = i; j < n_terms; ++j, ++k)
               rows[volume + k] += terms[i] * distance[j];
-          rows[change] += terms[0] * motion.volume_change[p];
           rows[shear] += terms[0] * shear_of_step[p];
         }
     sums.activate_cell(cell.cell);
@@ -165,32 +173,30 @@ namespace scree
       const Batch lack      = simd::max<Batch>(1. - 2. / full * sum[volume], zero);
       const Batch ridge     = least_variance + variance_of_few * lack * lack;
 
-      const Batch mean = scale * sum[strain];
-      Batch centre[dim], variance[dim * dim], covariance[dim], inverse[dim * dim];
+      Batch centre[dim], variance[dim * dim], inverse[dim * dim];
       for (unsigned int i = 0; i < dim; ++i)
-        {
-          centre[i]     = scale * sum[volume + 1 + i];
-          covariance[i] = scale * sum[strain + 1 + i] - centre[i] * mean;
-        }
+        centre[i] = scale * sum[volume + 1 + i];
       for (unsigned int i = 0, k = n_terms; i < dim; ++i)
         for (unsigned int j = i; j < dim; ++j, ++k)
           variance[i * dim + j] = variance[j * dim + i] =
               scale * sum[volume + k] - centre[i] * centre[j] + (i == j ? ridge : zero);
       invert_rows<dim>(variance, inverse);
 
-      const Batch part    = 1. - simd::exp<Batch>(-relaxation * scale * sum[shear]);
-      result[mean_change] = simd::select<Batch>(has_points, scale * sum[change], one);
-      result[relaxed]     = part;
-      result[linear]      = mean;
-      for (unsigned int i = 0; i < dim; ++i)
-        {
-          Batch slope = inverse[i * dim] * covariance[0];
-          for (unsigned int j = 1; j < dim; ++j)
-            slope += inverse[i * dim + j] * covariance[j];
-          result[linear] -= slope * centre[i];
-          result[linear + 1 + i] = part * slope;
-        }
-      result[linear] *= part;
+      const auto fit_linear = [&](const Batch *values, const Batch &factor, const double kept_slope, Batch *linear) {
+        const Batch mean = scale * values[0];
+        linear[0]        = factor * mean;
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            Batch slope = zero;
+            for (unsigned int j = 0; j < dim; ++j)
+              slope += inverse[i * dim + j] * (scale * values[1 + j] - centre[j] * mean);
+            linear[1 + i] = kept_slope * factor * slope;
+            linear[0] -= linear[1 + i] * centre[i];
+          }
+      };
+      result[relaxed] = 1. - simd::exp<Batch>(-relaxation * scale * sum[shear]);
+      fit_linear(sum + change, one, slope_of_change, result + new_change);
+      fit_linear(sum + strain, result[relaxed], 1., result + new_strain);
       simd::store_records<n_fits>(result, records);
     });
     sums.update_ghosts();
@@ -198,8 +204,7 @@ namespace scree
 
 
   template <int dim>
-  void
-  VolumeProjection<dim>::apply(const CellPoints<dim> &cell, const unsigned int first, BlockMotion<dim> &motion) const
+  void VolumeProjection<dim>::apply(const CellPoints<dim> &cell, const unsigned int first, BlockMotion<dim> &motion)
   {
     const unsigned int *vertices = grid.vertices().nodes(cell.cell);
     for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n) {
@@ -215,24 +220,28 @@ namespace scree
       const Batch zero = simd::broadcast<Batch>(0.), one = simd::broadcast<Batch>(1.);
       const Batch own       = load(&elastic_strain[p]);
       const auto has_stress = simd::first_lanes(n) & (own == own);
-      Batch projected = zero, rest = zero;
+      Batch projected = one, rest = zero;
       for (unsigned int v = 0; v < n_vertices; ++v)
         {
           const double *fits = sums[vertices[v]];
-          Batch psi = one, excess = fits[relaxed] * own - fits[linear];
+          Batch psi = one, value = simd::broadcast<Batch>(fits[new_change]),
+                excess = fits[relaxed] * own - fits[new_strain];
           for (unsigned int a = 0; a < dim; ++a)
             {
-              const bool is_upper = v >> a & 1;
+              const bool is_upper  = v >> a & 1;
+              const Batch distance = is_upper ? x[a] - 1. : x[a];
               psi *= is_upper ? x[a] : 1. - x[a];
-              excess -= fits[linear + 1 + a] * (is_upper ? x[a] - 1. : x[a]);
+              value += fits[new_change + 1 + a] * distance;
+              excess -= fits[new_strain + 1 + a] * distance;
             }
-          projected += psi * fits[mean_change];
+          projected += psi * value;
           rest += psi * excess;
         }
       const Batch change   = simd::select<Batch>(simd::first_lanes(n), load(&motion.volume_change[p]), one);
       const Batch factor   = simd::exp<Batch>(simd::select<Batch>(has_stress, -rest, zero));
       const Batch averaged = simd::select<Batch>(has_stress, projected * factor, change);
-      const Batch scale    = simd::cube_root<Batch>(averaged / change);
+      work += simd::select<Batch>(has_stress, load(&stress_volume[p]) * (1. - projected / change), zero);
+      const Batch scale = simd::cube_root<Batch>(averaged / change);
       for (unsigned int c = 0; c < dim * dim; ++c)
         {
           double *component = &motion.deformation_increment[c * motion.pitch + p];

@@ -754,7 +754,7 @@ def closing_gap(scree):
             "Mesh/Upper corner": "0.3, 1.2", "Mesh/Cell size": "0.05", **soil, **NO_STRESS, "Soil/Points per cell": "3", "Water/Region": both,
             "Water/Points per cell": "3", "Water/Initial pressure": "none", "Water/Hydraulic conductivity": "1e-3", "Water/Initial velocity": velocity,
             "End time": "0.5", "Output/Interval": "0.5", "Output/Statistics interval": "0.005"}))
-        check_fall(name, table, *((0.018, 0.005) if what == "soil" else (0.005,)))
+        check_fall(name, table)
 
 
 def falling_water(scree):
@@ -790,7 +790,7 @@ def infiltration(scree):
 def column_step(scree):
     """A saturated column collapses: fronts depend little on the time step, and nothing gains.
 
-    The 90 % front changes by 2.5 % (2 were asked), that of 99 % by 5.5 % (5).
+    The 90 % front changes by 2.8 % (2 were asked), that of 99 % by 4.6 %.
     """
     tables = []
     for courant in ("0.8", "0.2"):
@@ -798,7 +798,7 @@ def column_step(scree):
         tables.append(run(scree, "columns/column_saturated", "column_" + courant, {
             "Time step/Courant number": courant, "End time": "1.5"}))
         check_balances(name, tables[-1])
-    for front, most in ((90, 0.03), (99, 0.06)):
+    for front, most in ((90, 0.03), (99, 0.05)):
         fronts = [table["Front %d %% (m)" % front][-1] for table in tables]
         check("saturated column: front of %d %% at a Courant number of 0.2 over that at 0.8" % front, fronts[1] / fronts[0], 1 - most, 1 + most)
 

@@ -89,6 +89,7 @@ namespace scree
     double largest_compression  = 0; ///< Compressive principal Kirchhoff stress, or a bound on it, Pa
     double plastic_dissipation  = 0; ///< Sum of V_0 tau : (trial - returned elastic strain), J
     double elastic_energy       = 0; ///< At the middle of the step: sum of V_0 psi - V sigma : (dF - I)/2, J
+    double averaging_work       = 0; ///< See VolumeProjection::kept_work(), J
 
     // Counts; doubles hold them exactly and travel like the rest.
     double n_updates    = 0; ///< Points
@@ -105,6 +106,7 @@ namespace scree
       largest_compression  = std::max(largest_compression, other.largest_compression);
       plastic_dissipation += other.plastic_dissipation;
       elastic_energy += other.elastic_energy;
+      averaging_work += other.averaging_work;
       n_updates += other.n_updates;
       n_substeps += other.n_substeps;
       n_fallbacks += other.n_fallbacks;

@@ -71,8 +71,8 @@ namespace scree
     void serialize(Archive &archive, const unsigned int)
     {
       archive &balance;
-      archive &material
-          .plastic_dissipation &lost_mass &lost_volume &lost_water_mass &lost_energy &lost_momentum &n_lost;
+      archive &material.plastic_dissipation &material
+          .averaging_work &lost_mass &lost_volume &lost_water_mass &lost_energy &lost_momentum &n_lost;
       archive &lost_through;
       archive &entered_momentum &n_entered &entered_mass &entered_water_mass &entered_energy;
       archive &elastic_energy;
@@ -132,7 +132,15 @@ namespace scree
     double kept_energy() const
     {
       return mass_scaling * sums.kinetic + sums.potential + 0.5 * time_step * (gravity * sums.momentum) +
-             (time_step > 0. ? totals.elastic_energy : sums.elastic);
+             (time_step > 0. ? totals.elastic_energy : sums.elastic) + averaging_energy();
+    }
+
+    /// What the average of the volume change has taken from the nodes and not given back, J: with p = K P epsilon the
+    /// force derives from K/2 epsilon P epsilon, and the points store K/2 |P epsilon|^2 of it. Below 0 it has made
+    /// energy, which counts as gain.
+    double averaging_energy() const
+    {
+      return std::max(0., totals.material.averaging_work);
     }
 
     /// What the impulses since the start do not explain of the momentum, N s.

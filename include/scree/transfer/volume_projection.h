@@ -12,12 +12,12 @@ namespace scree
   /// Volume change of the points under stress in the space of the pore pressure, the linear functions psi_a of the
   /// cells' vertices, against volumetric locking and oscillation of the stress:
   ///
-  ///   dJ_p = (sum_a psi_a m_a) exp(-r_p),   r_p = sum_a c_a psi_a (ln J_e,p - l_a(x_p)),   c_a = 1 - exp(-k gamma_a),
+  ///   dJ_p = (sum_a psi_a m_a(x_p)) exp(-r_p),   r_p = sum_a c_a psi_a (ln J_e,p - l_a(x_p)),
   ///
-  /// in which m_a is the mean of the points' own dJ about the vertex with the weights V psi_a, l_a the linear function
-  /// that fits ln J_e there by least squares with the same weights, and gamma_a the mean shear of the step. So elastic
-  /// volume strain relaxes to what linear functions carry, as far as the soil shears. The volume of a point changes by
-  /// dJ_p, and V/J_e stays that of the point.
+  /// in which l_a is the linear function that fits ln J_e about the vertex by least squares with the weights V psi_a,
+  /// m_a that of the points' own dJ with a part of its slope, and c_a = 1 - exp(-k gamma_a) with the mean shear gamma_a
+  /// of the step. So elastic volume strain relaxes to what linear functions carry, as far as the soil shears. The
+  /// volume of a point changes by dJ_p, and V/J_e stays that of the point.
   ///
   /// sum V dJ is that of the own dJ, sum V r is 0, linear fields pass but for a ridge, the stored energy does not grow
   /// (doc/theory/single_phase.md). Points without stress (separated grains) keep their own dJ and take no part.
@@ -42,8 +42,9 @@ namespace scree
     void clear(const unsigned int n_points)
     {
       sums.clear();
-      for (auto *list : { &elastic_strain, &weight, &shear_of_step })
+      for (auto *list : { &elastic_strain, &weight, &stress_volume, &shear_of_step })
         list->resize(n_points + batch_size);
+      work = simd::broadcast<Batch>(0.);
     }
 
     /// Adds the points of some cells, as they are at the start of the step but for their motion.
@@ -54,7 +55,14 @@ namespace scree
 
     /// Sets dJ of the points of a cell and scales their dF.
     /// @param first of the cell's points in `motion`
-    void apply(const CellPoints<dim> &cell, const unsigned int first, BlockMotion<dim> &motion) const;
+    void apply(const CellPoints<dim> &cell, const unsigned int first, BlockMotion<dim> &motion);
+
+    /// Work of the stress on the points' own volume change less that on the one they got, since clear(), J: what the
+    /// nodes have given and the points have not stored. Sum over the points of this rank.
+    double kept_work() const
+    {
+      return simd::sum_of_lanes(work);
+    }
 
   private:
     void add_cell(const CellPoints<dim> &cell, const unsigned int first, const BlockMotion<dim> &motion);
@@ -62,12 +70,13 @@ namespace scree
     static constexpr unsigned int n_vertices = 1 << dim, n_terms = 1 + dim, n_moments = n_terms * (n_terms + 1) / 2;
 
     // Sums at a vertex, weighted with V psi_a: products of 1 and the distance from the vertex in cells; these times
-    // ln J_e; dJ; shear. Filled up to fours.
-    static constexpr unsigned int volume = 0, strain = n_moments, change = strain + n_terms, shear = change + 1,
+    // ln J_e; these times dJ - 1; shear. Filled up to fours.
+    static constexpr unsigned int volume = 0, strain = n_moments, change = strain + n_terms, shear = change + n_terms,
                                   n_sums = (shear + 4) / 4 * 4;
 
-    // After fit(), in their place: mean of dJ, c_a, c_a times value and slope of the linear function.
-    static constexpr unsigned int mean_change = 0, relaxed = 1, linear = 2, n_fits = linear + n_terms;
+    // After fit(), in their place: value and slope of the linear function of dJ - 1; c_a; c_a times those of ln J_e.
+    static constexpr unsigned int new_change = 0, relaxed = n_terms, new_strain = relaxed + 1,
+                                  n_fits = new_strain + n_terms;
 
     const BackgroundGrid<dim> &grid;
     NodeValues<dim, n_sums> sums;
@@ -75,7 +84,9 @@ namespace scree
     // Of the points, as in BlockMotion
     std::vector<double> elastic_strain; // ln J_e at the start of the step; not a number without stress
     std::vector<double> weight;         // V, m^3; 0 without stress
+    std::vector<double> stress_volume;  // V tr(sigma)/3, J
     std::vector<double> shear_of_step;  // gamma
+    Batch work;                         // see kept_work(), lane by lane
   };
 } // namespace scree
 

@@ -128,21 +128,34 @@ void average(const std::string &f_bar, const PropertyLayout<dim> &layout, std::v
 template <int dim>
 struct Vertex
 {
-  double volume = 0, change = 0, shear = 0, strain = 0, seen = 0; // seen: volume of the box about the vertex
-  Tensor<1, dim> distance, strain_times_distance;
+  double volume = 0, shear = 0, seen = 0; // seen: volume of the box about the vertex
+  Tensor<1, dim> distance;
   Tensor<2, dim> square_of_distance;
 
-  /// ln J_e less the linear function of the vertex, times the part of it that relaxes.
-  double excess(const double own, const Tensor<1, dim> &from_vertex) const
+  /// Sums of a quantity of the points and of it times their distance.
+  struct Sums
   {
-    const double mean           = strain / volume;
+    double value = 0;
+    Tensor<1, dim> times_distance;
+  } change, strain;
+
+  /// The linear function of a quantity, with a part of its slope.
+  double linear(const Sums &sums, const Tensor<1, dim> &from_vertex, const double kept_slope) const
+  {
+    const double mean           = sums.value / volume;
     const Tensor<1, dim> centre = distance / volume;
     const double lack           = std::max(0., 1. - 2. * volume / seen);
     const Tensor<2, dim> one    = unit_symmetric_tensor<dim>();
     const Tensor<2, dim> variance =
         square_of_distance / volume - outer_product(centre, centre) + (0.002 + 0.2 * lack * lack) * one;
-    const Tensor<1, dim> slope = invert(variance) * (strain_times_distance / volume - mean * centre);
-    return (1. - std::exp(-100. * shear / volume)) * (own - mean - slope * (from_vertex - centre));
+    const Tensor<1, dim> slope = invert(variance) * (sums.times_distance / volume - mean * centre);
+    return mean + kept_slope * (slope * (from_vertex - centre));
+  }
+
+  /// Part of the elastic volume strain that relaxes.
+  double relaxed() const
+  {
+    return 1. - std::exp(-100. * shear / volume);
   }
 };
 
@@ -189,18 +202,20 @@ void project(const std::vector<CellPoints<dim>> &cells,
     const double shear  = std::sqrt(2. * (green.norm_square() - trace(green) * trace(green) / 3.)); // plane strain
     const double weight = psi * point.properties[layout.volume];
     vertex.volume += weight;
-    vertex.change += weight * point.volume_change;
     vertex.shear += weight * shear;
-    vertex.strain += weight * own;
     vertex.distance += weight * x;
-    vertex.strain_times_distance += weight * own * x;
+    for (auto [sums, value] : { std::pair(&vertex.change, point.volume_change), std::pair(&vertex.strain, own) })
+      {
+        sums->value += weight * value;
+        sums->times_distance += weight * value * x;
+      }
     vertex.square_of_distance += weight * outer_product(x, x);
   });
 
   double change = 0, rest = 0;
   for_each_vertex([&](auto &point, const unsigned int v, const double own, const double psi, auto x, auto &vertex) {
-    change = (v == 0 ? 0 : change) + psi * vertex.change / vertex.volume;
-    rest   = (v == 0 ? 0 : rest) + psi * vertex.excess(own, x);
+    change = (v == 0 ? 0 : change) + psi * vertex.linear(vertex.change, x, 0.25);
+    rest   = (v == 0 ? 0 : rest) + psi * vertex.relaxed() * (own - vertex.linear(vertex.strain, x, 1));
     if (v + 1 < 1 << dim)
       return;
     change *= std::exp(-rest);

@@ -45,7 +45,7 @@ struct Soil
       for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
         {
           b[c]      = c < 3 ? std::exp(2. / 3. * ln_J_e) : 0.;
-          stress[c] = c < 3 && is_loaded(point.location) ? -1. : 0.;
+          stress[c] = c < 3 && is_loaded(point.location) ? ln_J_e - 1. : 0.;
         }
       const Tensor<2, dim> dF = increment(point.location);
       points.push_back(
@@ -237,6 +237,22 @@ void test_sums(const std::string &region, const std::string &name)
 }
 
 
+/// Soil whose stress has grown with its volume change: the average takes work from the nodes, and no more than they do.
+template <int dim>
+void test_work(const std::string &region, const std::string &name)
+{
+  Soil<dim> soil(region);
+  const auto growth = [](const Point<dim> &x) { return std::cbrt(1. + random_strain<dim>(x)) * unit<dim>(); };
+  double work       = 0.;
+  for (const auto &point : soil.average(random_strain<dim>, growth))
+    work += point.volume * point.strain * (point.own_change - 1.);
+  const double kept = sum_of_ranks(soil.projection.kept_work()) / sum_of_ranks(work);
+  require(kept > 0.3 && kept < 1., name + "of the work on a volume change without order, too much or little is kept");
+  soil.average(none<dim>, [](const Point<dim> &) { return 1.01 * unit<dim>(); });
+  expect(soil.projection.kept_work(), 0, 1e-14, name + "kept work of a constant volume change");
+}
+
+
 /// A rotation of 0.1 rad is no shear.
 template <int dim>
 void test_rotation(const std::string &region, const std::string &name)
@@ -289,6 +305,7 @@ void test()
   const std::string name = std::to_string(dim) + "D: ", oblique = "x + 0.7 * y < 0.63";
   test_fields<dim>(name);
   test_sums<dim>(oblique, name);
+  test_work<dim>(oblique, name);
   test_rotation<dim>(oblique, name);
   test_free_points<dim>(oblique, name);
 }

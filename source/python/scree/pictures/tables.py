@@ -12,8 +12,8 @@ from scree.pictures.panels import save_picture
 
 # Panel, and the columns of the statistics that belong to it. A scene has some of them: water's, soil's, a load's.
 PANELS = {
-    "energy": ["Kinetic energy (J)", "Potential energy (J)", "Elastic energy (J)", "Plastic dissipation (J)", "Wall dissipation (J)",
-               "Bed dissipation (J)", "Numerical dissipation (J)", "Drag dissipation (J)", "Energy entered (J)", "Load work (J)"],
+    "energy": ["Kinetic energy (J)", "Potential energy (J)", "Elastic energy (J)", "Energy of the averaging (J)", "Plastic dissipation (J)",
+               "Wall dissipation (J)", "Bed dissipation (J)", "Numerical dissipation (J)", "Drag dissipation (J)", "Energy entered (J)", "Load work (J)"],
     "run-out": ["Toe displacement (m)", "Largest displacement (m)"],
     "front": ["Front 90 % (m)", "Front 99 % (m)", "Front 99.5 % (m)", "Water front 90 % (m)", "Water front 99 % (m)", "Water front 99.5 % (m)"],
     "force": [],  # on obstacles: their columns have names of the case
