@@ -207,11 +207,8 @@ namespace scree
     prm.add_parameter(
         "Lines",
         lines,
-        "m; lines along which the state is written with each graphics output. Format: NAME: x, y to x, y; ...");
-    prm.add_parameter("Places a line",
-                      places_a_line,
-                      "Number of places on each line, equally spaced, ends included.",
-                      Patterns::Integer(2, 100000));
+        "m; lines along which the state is written with each graphics output, at places of equal spacing, half a cell, "
+        "ends included. Format: NAME: x, y to x, y; ...");
     prm.add_parameter("Verticals",
                       verticals,
                       "m; places on the ground above which the height of the soil surface and the water level are "
@@ -368,8 +365,9 @@ namespace scree
       {
         const Point<dim> begin(vector_of<dim>(line.points[0].data())), end(vector_of<dim>(line.points[1].data()));
         std::vector<Point<dim>> places;
-        for (unsigned int i = 0; i < parameters.places_a_line; ++i)
-          places.push_back(begin + i / (parameters.places_a_line - 1.) * (end - begin));
+        const double n_parts = std::max(1., std::round(begin.distance(end) / (0.5 * grid.cell_size())));
+        for (double i = 0; i <= n_parts; ++i)
+          places.push_back(begin + i / n_parts * (end - begin));
         std::vector<std::string> columns{ "Distance (m)", "x (m)", "y (m)", "z (m)" };
         columns.resize(1 + dim);
         columns.insert(columns.end(), names.begin(), names.end());

@@ -20,7 +20,7 @@ DRY = {"End time": 0.12, "Mesh/Upper corner": "1.6, 0.8", "Mesh/Cell size": 0.1,
        "Soil/Region": "x < 0.5 && y < 0.5", "Soil/Points per cell": 4, "Soil/Initial state/Type": "K0", "Soil/Initial state/K0": 0.683,
        "Output/Interval": 0.06, "Output/Statistics interval": 0.01, "Output/Checkpoint interval": 0.055, "Output/Screen": "nothing",
        "Output/Graphics": "points", "Probes/Places": "toe: 0.45, 0.03; far: 1.5, 0.7", "Probes/Lines": "base: 0, 0.02 to 1.6, 0.02; mid: 0.2, 0 to 0.2, 0.8",
-       "Probes/Places a line": 17, "Probes/Verticals": "crest: 0.1", "Probes/Front thickness": 0.05, "Probes/Wall forces": "true"}
+       "Probes/Verticals": "crest: 0.1", "Probes/Front thickness": 0.05, "Probes/Wall forces": "true"}
 WATER = {"Water/Region": "x < 0.7 && y < 0.4", "Water/Hydraulic conductivity": 5e-3, "Water/Pressure/Relative tolerance": 1e-12}
 FILES = ["probe_" + name for name in ("toe", "far", "base", "mid", "crest", "front", "walls")]
 
@@ -104,8 +104,8 @@ def dry():
     check(abs(crest["Thickness (m)"][0] - 0.5) < 1e-9, "thickness at the start")
     check(np.all(front["Rear (m)"] == 0) and front["Front (m)"][-1] > front["Front (m)"][0], "the front advances")
     base = read_table(one / "probe_base")
-    check(len(base["x (m)"]) == 3 * 17 and len(set(base["Time (s)"])) == 3, "17 places in three pictures")
-    check(np.allclose(base["x (m)"], np.tile(np.linspace(0, 1.6, 17), 3), atol=1e-9), "places from end to end of the line")
+    check(len(base["x (m)"]) == 3 * 33 and len(set(base["Time (s)"])) == 3, "33 places, of half a cell, in three pictures")
+    check(np.allclose(base["x (m)"], np.tile(np.linspace(0, 1.6, 33), 3), atol=1e-9), "places from end to end of the line")
     check(np.allclose(base["Distance (m)"], base["x (m)"], atol=1e-9) and np.all(base["y (m)"] == 0.02), "distances from the first end")
 
     same_in_csv(one, "statistics", ["time_s", "step", "momentum_x_Ns", "kinetic_energy_J", "front_90_m", "front_99_5_m", "stress_oscillation"])
