@@ -14,6 +14,7 @@
 #include <scree/postprocess/probes.h>
 #include <scree/schemes/time_step.h>
 #include <scree/seeding/seeding.h>
+#include <scree/transfer/transfer_parameters.h>
 
 namespace scree
 {
