@@ -215,7 +215,6 @@ namespace scree
     parameters.surface_load.check(parameters.grid, parameters.dimension);
     parameters.body_forces.check(parameters.dimension);
     parameters.settling.check(parameters.gravity);
-    parameters.safety.check();
     parameters.probes.check(parameters.grid, parameters.dimension);
     for (const auto &body : parameters.bodies)
       body.check(parameters.gravity, parameters.has_water ? &parameters.water : nullptr);

@@ -120,13 +120,6 @@ namespace scree
                       "Factor by which a run divides the strength of the soil, and the friction of bases, contacts and "
                       "walls, from the release on. --safety searches it; there it must be 1.",
                       Patterns::Double(1e-3, 1e3));
-    prm.add_parameter("Lower factor",
-                      lower,
-                      "--safety: lower end of the range of the factor. Before the search the slope settles with the "
-                      "strength divided by half of it.",
-                      Patterns::Double(1e-3, 1e3));
-    prm.add_parameter(
-        "Upper factor", upper, "--safety: upper end of the range of the factor.", Patterns::Double(1e-3, 1e3));
     prm.add_parameter("Tolerance",
                       tolerance,
                       "--safety: largest difference between the smallest factor that fails and the largest one that "

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <scree/postprocess/graphics.h>
 #include <scree/postprocess/probes.h>
 #include <scree/tensor/invariants.h>
 #include <scree/tensor/vector.h>
@@ -207,11 +206,8 @@ namespace scree
     prm.add_parameter(
         "Lines",
         lines,
-        "m; lines along which the state is written with each graphics output. Format: NAME: x, y to x, y; ...");
-    prm.add_parameter("Places a line",
-                      places_a_line,
-                      "Number of places on each line, equally spaced, ends included.",
-                      Patterns::Integer(2, 100000));
+        "m; lines along which the state is written with each graphics output, at places of equal spacing, half a cell, "
+        "ends included. Format: NAME: x, y to x, y; ...");
     prm.add_parameter("Verticals",
                       verticals,
                       "m; places on the ground above which the height of the soil surface and the water level are "
@@ -222,14 +218,14 @@ namespace scree
                       "this thick are written with each row of statistics. 0: none.",
                       Patterns::Double(0));
     prm.add_parameter(
-        "Wall forces", wall_forces, "true: the force on each face of the box is written with each row of statistics.");
+        "Wall forces", wall_forces, "true: the force on each face of the box is in each row of statistics.");
     prm.leave_subsection();
   }
 
 
   void ProbeParameters::check(const GridParameters &grid, const unsigned int dim) const
   {
-    std::set<std::string> names{ "front", "walls" };
+    std::set<std::string> names{ "front" };
     for (const PlaceEntry &kind : place_entries)
       for (const NamedPlace &place : list_of(kind.name, dim))
         {
@@ -253,188 +249,132 @@ namespace scree
   }
 
 
-  namespace
-  {
-    /// Force of the pore pressure on each face of the box, N, of all ranks.
-    template <int dim>
-    std::vector<double> pressure_forces(const WaterView<dim> &view, const BackgroundGrid<dim> &grid)
-    {
-      constexpr unsigned int n = 8; // places along each axis of a cell's face: p has a kink where it is cut off at 0
-      const double area        = Utilities::fixed_power<dim - 1>(grid.cell_size() / n);
-      std::vector<double> forces(2 * dim, 0.);
-      std::set<unsigned int> wet_cells;
-      for (const auto &water : view.water)
-        for (const auto &cell : water.points().cells())
-          wet_cells.insert(cell.cell);
-      for (const unsigned int cell : wet_cells)
-        if (const std::uint8_t walls = grid.open_knots(cell); walls != 0 && grid.numbering().has_nodes(cell))
-          {
-            const auto corners = view.pressure_of_cell(cell);
-            for (const unsigned int face : GeometryInfo<dim>::face_indices())
-              if ((walls >> face) & 1)
-                for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n); ++i)
-                  {
-                    Point<dim> x;
-                    for (unsigned int a = 0, rest = i; a < dim; ++a)
-                      if (a == face / 2)
-                        x[a] = face % 2;
-                      else
-                        {
-                          x[a] = (rest % n + 0.5) / n;
-                          rest /= n;
-                        }
-                    forces[face] += (face % 2 == 0 ? -1. : 1.) * area * std::max(0., pressure_at<dim>(x, corners));
-                  }
-          }
-      Utilities::MPI::sum(forces, grid.communicator(), forces);
-      return forces;
-    }
-  } // namespace
-
-
   template <int dim>
-  std::vector<double> Probes<dim>::wall_forces(const State &state, const BackgroundGrid<dim> &grid)
+  Probes<dim>::Probes(const ProbeParameters &parameters,
+                      const BackgroundGrid<dim> &grid,
+                      const bool has_soil,
+                      const bool has_water,
+                      RunFolder &folder)
+      : grid(grid)
+      , folder(folder)
+      , has_soil(has_soil)
+      , has_water(has_water)
   {
-    Impulses now{ true, state.time };
-    for (const unsigned int face : walls)
-      for (const WallImpulses<dim> *of_phase : { &state.totals.soil_walls, &state.totals.water_walls })
-        for (unsigned int a = 0; a < dim; ++a)
-          now.of_walls.push_back(of_phase->of_face[face][a]);
-    Utilities::MPI::sum(now.of_walls, grid.communicator(), now.of_walls);
-    const std::vector<double> pressure =
-        state.view ? pressure_forces(*state.view, grid) : std::vector<double>(2 * dim, 0.);
-
-    const Impulses &before = at_last_forces;
-    std::vector<double> forces;
-    for (unsigned int i = 0; i < walls.size(); ++i)
-      {
-        for (unsigned int c = 2 * dim * i; c < 2 * dim * i + (has_water ? 2 : 1) * dim; ++c)
-          forces.push_back(before.are_known && now.time > before.time
-                               ? (before.of_walls[c] - now.of_walls[c]) / (now.time - before.time) // on the wall
-                               : std::numeric_limits<double>::quiet_NaN());
-        if (has_water)
-          forces.push_back(pressure[walls[i]]);
-      }
-    at_last_forces = now;
-    return forces;
+    add_places(parameters.list_of("Places", dim));
+    for (const NamedPlace &line : parameters.list_of("Lines", dim))
+      add_line(line);
+    add_verticals(parameters.list_of("Verticals", dim));
+    if (parameters.front_thickness > 0)
+      add_front(parameters.front_thickness);
   }
 
 
   template <int dim>
-  Probes<dim>::Probes(const ProbeParameters &parameters,
-                      const BackgroundGrid<dim> &grid,
-                      const BoundaryConditions<dim> &box_walls,
-                      const BoundaryConditions<dim> *water_walls,
-                      const bool has_soil,
-                      RunFolder &folder)
-      : has_soil(has_soil)
-      , has_water(water_walls != nullptr)
-      , with_wall_forces(parameters.wall_forces)
+  void Probes<dim>::add_group(const bool of_pictures,
+                              const std::vector<NamedPlace> &places,
+                              const std::vector<std::string> &columns,
+                              const std::function<Rows(const State &)> &rows)
   {
-    const auto add_group = [&](const bool of_pictures,
-                               const std::vector<NamedPlace> &places,
-                               const std::vector<std::string> &columns,
-                               const auto &rows) {
-      Group &group = groups.emplace_back(Group{ of_pictures, { "Time (s)" }, {}, rows });
-      group.columns.insert(group.columns.end(), columns.begin(), columns.end());
-      for (const NamedPlace &place : places)
-        group.tables.push_back(&tables.emplace_back(folder, "probe_" + place.name));
-    };
-    const auto columns_of = [&](std::vector<std::string> of_soil, const std::vector<std::string> &of_water) {
-      if (!has_soil)
-        of_soil.clear();
-      if (has_water)
-        of_soil.insert(of_soil.end(), of_water.begin(), of_water.end());
-      return of_soil;
-    };
-    // Calls its last argument with the soil's points and with the water's.
-    const auto for_each_phase = [this, &grid](const State &state, const auto &act) {
-      if (this->has_soil)
-        act(point_volumes(state.bodies), true);
-      if (has_water)
-        act(point_volumes(state.bodies, state.water, grid), false);
-    };
-    const auto names = columns_of(PlaceValues<dim>::names_of_soil(), PlaceValues<dim>::names_of_water());
+    Group &group = groups.emplace_back(Group{ of_pictures, { "Time (s)" }, {}, rows });
+    group.columns.insert(group.columns.end(), columns.begin(), columns.end());
+    for (const NamedPlace &place : places)
+      group.tables.push_back(&tables.emplace_back(folder, "probe_" + place.name));
+  }
 
-    const std::vector<NamedPlace> list_of_places = parameters.list_of("Places", dim);
+
+  template <int dim>
+  std::vector<std::string> Probes<dim>::columns_of(const std::vector<std::string> &of_soil,
+                                                   const std::vector<std::string> &of_water) const
+  {
+    std::vector<std::string> columns = has_soil ? of_soil : std::vector<std::string>();
+    if (has_water)
+      columns.insert(columns.end(), of_water.begin(), of_water.end());
+    return columns;
+  }
+
+
+  template <int dim>
+  void Probes<dim>::add_places(const std::vector<NamedPlace> &list)
+  {
     std::vector<Point<dim>> points;
-    for (const NamedPlace &place : list_of_places)
+    for (const NamedPlace &place : list)
       points.emplace_back(vector_of<dim>(place.points[0].data()));
-    add_group(false, list_of_places, names, [this, values = PlaceValues<dim>(grid, points)](const State &state) {
+    add_group(false, list, columns_of_state(), [this, values = PlaceValues<dim>(grid, points)](const State &state) {
       return state_at(values, state);
     });
+  }
 
-    for (const NamedPlace &line : parameters.list_of("Lines", dim))
-      {
-        const Point<dim> begin(vector_of<dim>(line.points[0].data())), end(vector_of<dim>(line.points[1].data()));
-        std::vector<Point<dim>> places;
-        for (unsigned int i = 0; i < parameters.places_a_line; ++i)
-          places.push_back(begin + i / (parameters.places_a_line - 1.) * (end - begin));
-        std::vector<std::string> columns{ "Distance (m)", "x (m)", "y (m)", "z (m)" };
-        columns.resize(1 + dim);
-        columns.insert(columns.end(), names.begin(), names.end());
-        add_group(true, { line }, columns, [this, values = PlaceValues<dim>(grid, places)](const State &state) {
-          Rows rows        = state_at(values, state);
-          const auto &from = values.places;
-          for (unsigned int i = 0; i < rows.size(); ++i)
-            {
-              rows[i].insert(rows[i].begin(), &from[i][0], &from[i][0] + dim);
-              rows[i].insert(rows[i].begin(), from[i].distance(from.front()));
-            }
-          return rows;
-        });
-      }
 
-    const std::vector<NamedPlace> list_of_verticals = parameters.list_of("Verticals", dim);
-    Rows feet;
-    for (const NamedPlace &vertical : list_of_verticals)
-      feet.push_back(vertical.points[0]);
-    add_group(false,
-              list_of_verticals,
-              columns_of({ "Surface height (m)", "Thickness (m)" }, { "Water level (m)" }),
-              [for_each_phase, feet, &grid](const State &state) {
-                Rows rows(feet.size());
-                for_each_phase(state, [&](const auto &lumps, const bool is_soil) {
-                  const auto columns = ground_columns(lumps, feet, grid);
-                  for (unsigned int i = 0; i < rows.size(); ++i)
-                    {
-                      rows[i].push_back(columns[i].height);
-                      if (is_soil)
-                        rows[i].push_back(columns[i].thickness);
-                    }
-                });
-                return rows;
-              });
-
-    if (parameters.front_thickness > 0)
-      add_group(false,
-                { { "front", {} } },
-                columns_of({ "Rear (m)", "Front (m)" }, { "Water rear (m)", "Water front (m)" }),
-                [for_each_phase, &grid, thickness = parameters.front_thickness](const State &state) {
-                  Rows rows(1);
-                  for_each_phase(state, [&](const auto &lumps, const bool) {
-                    const auto [rear, tip] = rear_and_front(lumps, thickness, grid);
-                    rows[0].insert(rows[0].end(), { rear, tip });
-                  });
-                  return rows;
-                });
-
-    if (!with_wall_forces)
-      return;
-    std::vector<std::string> columns;
-    for (unsigned int face = 0; face < 2 * dim; ++face)
-      if (!box_walls.is_open(face) || (has_water && !water_walls->is_open(face)))
+  template <int dim>
+  void Probes<dim>::add_line(const NamedPlace &line)
+  {
+    const Point<dim> begin(vector_of<dim>(line.points[0].data())), end(vector_of<dim>(line.points[1].data()));
+    std::vector<Point<dim>> places;
+    const double n_parts = std::max(1., std::round(begin.distance(end) / (0.5 * grid.cell_size())));
+    for (double i = 0; i <= n_parts; ++i)
+      places.push_back(begin + i / n_parts * (end - begin));
+    std::vector<std::string> columns{ "Distance (m)", "x (m)", "y (m)", "z (m)" };
+    columns.resize(1 + dim);
+    const std::vector<std::string> names = columns_of_state();
+    columns.insert(columns.end(), names.begin(), names.end());
+    add_group(true, { line }, columns, [this, values = PlaceValues<dim>(grid, places)](const State &state) {
+      Rows rows        = state_at(values, state);
+      const auto &from = values.places;
+      for (unsigned int i = 0; i < rows.size(); ++i)
         {
-          const std::string name = FaceEntries::names(dim)[face];
-          walls.push_back(face);
-          for (const std::string phase : { " soil ", " water " })
-            for (unsigned int a = 0; a < dim && (has_water || phase == " soil "); ++a)
-              columns.push_back(name + phase + "xyz"[a] + " (N)");
-          if (has_water)
-            columns.push_back(name + " pressure " + "xyz"[face / 2] + " (N)");
+          rows[i].insert(rows[i].begin(), &from[i][0], &from[i][0] + dim);
+          rows[i].insert(rows[i].begin(), from[i].distance(from.front()));
         }
-    add_group(false, { { "walls", {} } }, columns, [this, &grid](const State &state) {
-      return Rows{ wall_forces(state, grid) };
+      return rows;
+    });
+  }
+
+
+  template <int dim>
+  template <typename Act>
+  void Probes<dim>::for_each_phase(const State &state, const Act &act) const
+  {
+    if (has_soil)
+      act(point_volumes(state.bodies), true);
+    if (has_water)
+      act(point_volumes(state.bodies, state.water, grid), false);
+  }
+
+
+  template <int dim>
+  void Probes<dim>::add_verticals(const std::vector<NamedPlace> &list)
+  {
+    Rows feet;
+    for (const NamedPlace &vertical : list)
+      feet.push_back(vertical.points[0]);
+    const auto names = columns_of({ "Surface height (m)", "Thickness (m)" }, { "Water level (m)" });
+    add_group(false, list, names, [this, feet](const State &state) {
+      Rows rows(feet.size());
+      for_each_phase(state, [&](const auto &lumps, const bool is_soil) {
+        const auto columns = ground_columns(lumps, feet, grid);
+        for (unsigned int i = 0; i < rows.size(); ++i)
+          {
+            rows[i].push_back(columns[i].height);
+            if (is_soil)
+              rows[i].push_back(columns[i].thickness);
+          }
+      });
+      return rows;
+    });
+  }
+
+
+  template <int dim>
+  void Probes<dim>::add_front(const double thickness)
+  {
+    const auto names = columns_of({ "Rear (m)", "Front (m)" }, { "Water rear (m)", "Water front (m)" });
+    add_group(false, { { "front", {} } }, names, [this, thickness](const State &state) {
+      Rows rows(1);
+      for_each_phase(state, [&](const auto &lumps, const bool) {
+        const auto [rear, tip] = rear_and_front(lumps, thickness, grid);
+        rows[0].insert(rows[0].end(), { rear, tip });
+      });
+      return rows;
     });
   }
 

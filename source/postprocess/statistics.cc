@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/postprocess/graphics.h>
 #include <scree/postprocess/statistics.h>
 #include <scree/tensor/vector.h>
 
@@ -48,6 +49,70 @@ namespace scree
         if (part.carrier() == nullptr)
           include(part.points());
       return Utilities::MPI::min(least, now.grid.communicator());
+    }
+
+
+    /// Force of the pore pressure on each face of the box, N, of all ranks.
+    template <int dim>
+    std::array<double, 2 * dim> pressure_forces(const WaterView<dim> &view, const BackgroundGrid<dim> &grid)
+    {
+      constexpr unsigned int n = 8; // places along each axis of a cell's face: p has a kink where it is cut off at 0
+      const double area        = Utilities::fixed_power<dim - 1>(grid.cell_size() / n);
+      std::array<double, 2 * dim> forces{};
+      std::set<unsigned int> wet_cells;
+      for (const auto &water : view.water)
+        for (const auto &cell : water.points().cells())
+          wet_cells.insert(cell.cell);
+      for (const unsigned int cell : wet_cells)
+        if (const std::uint8_t walls = grid.open_knots(cell); walls != 0 && grid.numbering().has_nodes(cell))
+          {
+            const auto corners = view.pressure_of_cell(cell);
+            for (const unsigned int face : GeometryInfo<dim>::face_indices())
+              if ((walls >> face) & 1)
+                for (unsigned int i = 0; i < Utilities::fixed_power<dim - 1>(n); ++i)
+                  {
+                    Point<dim> x;
+                    for (unsigned int a = 0, rest = i; a < dim; ++a)
+                      if (a == face / 2)
+                        x[a] = face % 2;
+                      else
+                        {
+                          x[a] = (rest % n + 0.5) / n;
+                          rest /= n;
+                        }
+                    forces[face] += (face % 2 == 0 ? -1. : 1.) * area * std::max(0., pressure_at<dim>(x, corners));
+                  }
+          }
+      Utilities::MPI::sum(ArrayView<const double>(forces.data(), forces.size()),
+                          grid.communicator(),
+                          ArrayView<double>(forces.data(), forces.size()));
+      return forces;
+    }
+
+
+    /// The mean forces of soil and water on walls since the last row (what walls take of their motion; the soil's is
+    /// the effective one), and the pore pressure's across the wall at this instant, of its positive part over the cells
+    /// that hold water.
+    template <int dim>
+    void add_walls(const Snapshot<dim> &now, StatisticsRow &row)
+    {
+      const auto pressure = now.view ? pressure_forces(*now.view, now.grid) : std::array<double, 2 * dim>();
+      for (const unsigned int face : now.further.walls)
+        {
+          const std::string name    = FaceEntries::names(dim)[face];
+          const auto add_force_from = [&](const std::string &phase, const WallImpulses<dim> Budget<dim>::*walls) {
+            Tensor<1, dim> force; // the opposite of what the wall gives
+            for (unsigned int a = 0; a < dim; ++a)
+              force[a] = now.mean_rate(-(now.totals.balance.*walls).of_face[face][a],
+                                       -(now.before.balance.*walls).of_face[face][a]);
+            add_value(row, name + phase, "N", force);
+          };
+          add_force_from(" soil", &Budget<dim>::soil_walls);
+          if (now.water.empty())
+            continue;
+          add_force_from(" water", &Budget<dim>::water_walls);
+          add_value(row, name + " pressure " + "xyz"[face / 2], "N", pressure[face]);
+        }
     }
 
 
@@ -193,6 +258,8 @@ namespace scree
           add_value(row, "Bed impulse", "N s", -balance.bed_impulse);
           add_value(row, "Least distance from bed", "m", least_distance(now, *features.bed));
         }
+      if (!features.walls.empty())
+        add_walls(now, row);
       if (features.obstacles != nullptr)
         add_obstacles(now, row);
       if (features.inflows)
@@ -255,7 +322,8 @@ namespace scree
                                          const double time,
                                          const unsigned long long step,
                                          const double time_step,
-                                         const UpdateReport &last_step)
+                                         const UpdateReport &last_step,
+                                         const WaterView<dim> *view)
   {
     const RunBalance<dim> totals = local.sum_over_ranks(grid.communicator());
     const Snapshot<dim> now{ grid,
@@ -263,6 +331,7 @@ namespace scree
                              further,
                              bodies,
                              water,
+                             view,
                              history,
                              last_step,
                              PointSums<dim>(bodies, water, gravity, grid),

@@ -49,7 +49,7 @@ namespace scree
     /// Of all ranks.
     std::string megabytes(const unsigned long kilobytes, const MPI_Comm communicator)
     {
-      return std::to_string(std::lround(Utilities::MPI::sum(double(kilobytes), communicator) / 1024)) + " MB";
+      return std::to_string(std::lround(1.024e-3 * Utilities::MPI::sum(double(kilobytes), communicator))) + " MB";
     }
 
     Utilities::System::MemoryStats memory()
@@ -129,7 +129,7 @@ namespace scree
       const double n_all   = grid.n_cells_of_box();
       folder.log("Mesh        " + number_text(n_cells) + " cells of " + number_text(grid.cell_size()) + " m" +
                  (n_cells < n_all ? " around the points, in a box of " + number_text(n_all) : ""));
-      folder.log("Memory      " + std::to_string(std::lround(expected_bytes / (1024. * 1024.))) + " MB estimated");
+      folder.log("Memory      " + std::to_string(std::lround(1e-6 * expected_bytes)) + " MB estimated");
 
       record_environment(folder);
       folder.record("In use      " + megabytes(memory().VmRSS, communicator) + " at the start (all ranks)");

@@ -7,25 +7,19 @@ namespace scree
 {
   using namespace dealii;
 
-  bool search_factor(const SafetyParameters &safety,
-                     const std::function<TrialEnd(double)> &try_factor,
-                     const FactorBracket &bracket)
+  bool
+  search_factor(const double tolerance, const std::function<TrialEnd(double)> &try_factor, const FactorBracket &bracket)
   {
-    constexpr double growth = 1.3;
-    double factor           = safety.lower;
-    while (bracket.fails - bracket.rests > safety.tolerance)
+    constexpr double largest = 100.;
+    while (bracket.fails - bracket.rests > tolerance)
       {
-        if (try_factor(factor) == TrialEnd::undecided)
+        if (try_factor(bracket.next()) == TrialEnd::undecided)
           return false;
-        require_entry(bracket.rests > 0.,
-                      { "Safety", "Lower factor", safety.lower },
-                      "the slope does not come to rest with its strength divided by this. Write a smaller one.");
-        require_entry(bracket.rests < safety.upper,
-                      { "Safety", "Upper factor", safety.upper },
-                      "the slope still comes to rest with its strength divided by this. Write a larger one.");
-        factor = std::isfinite(bracket.fails) ? 0.5 * (bracket.rests + bracket.fails)
-                 : factor < 1.                ? std::min(1., safety.upper)
-                                              : std::min(growth * factor, safety.upper);
+        if (bracket.rests > largest)
+          throw EntryError("--safety: the soil still comes to rest with its strength divided by " +
+                           number_text(bracket.rests) +
+                           ", so its own weight does not make it fail. Check that the \"Region\" of the bodies has a "
+                           "slope, and the direction of \"Gravity\".");
       }
     return true;
   }
@@ -83,7 +77,7 @@ namespace scree
       }
 
 
-      /// Settles, and searches the factor. Throws EntryError if it is not in the range.
+      /// Settles, and searches the factor. Throws EntryError if there is none.
       End search()
       {
         const SafetyParameters &safety = given.safety;
@@ -94,16 +88,17 @@ namespace scree
                    " sqrt(H/g)");
         const TrialEnd first = settle();
         require_entry(first != TrialEnd::fails,
-                      { "Safety", "Lower factor", safety.lower },
-                      "the slope does not settle with its strength divided by half of this. Write a smaller one.");
+                      { "", "Bodies", boost::algorithm::join(names_of(given.bodies), ", ") },
+                      "the slope does not settle with four times its strength. Write more strength, or a longer "
+                      "\"Maximum time\" in subsection Settling.");
         bool has_found = false;
         try
           {
             has_found = first == TrialEnd::rests &&
                         search_factor(
-                            safety, [&](const double factor) { return try_factor(factor); }, bracket);
+                            safety.tolerance, [&](const double factor) { return try_factor(factor); }, bracket);
           }
-        catch (const EntryError &) // on all ranks: the factor is not in the range
+        catch (const EntryError &) // on all ranks: there is no factor
           {
             remove("settled");
             throw;
@@ -140,14 +135,15 @@ namespace scree
       /// From the start of the case to the state that the other trials begin with, without a bound of the displacement.
       TrialEnd settle()
       {
-        const double factor   = 0.5 * given.safety.lower; // deforms little beyond elasticity
-        const auto parameters = parameters_of_trial(factor, "settled");
+        constexpr double factor = 0.25; // deforms little beyond elasticity
+        const auto parameters   = parameters_of_trial(factor, "settled");
         Simulation<dim> simulation(*parameters, Start::fresh, communicator);
         if (!simulation.is_settled())
           return TrialEnd::undecided;
         const Trial trial = simulation.try_strength(std::numeric_limits<double>::infinity());
         if (trial.end == TrialEnd::rests)
           simulation.write_checkpoint();
+        bracket.include(factor, trial.end);
         record(factor, trial);
         return trial.end;
       }
@@ -210,7 +206,7 @@ namespace scree
       {
         if (rows.is_empty())
           folder.log("   factor   trial   displacement (m)   time (s)    steps   range so far       trials left");
-        const unsigned int n_left = bracket.n_left(given.safety);
+        const unsigned int n_left = bracket.n_left(given.safety.tolerance);
         folder.log(formatted("   %-6.4g   %-7s %16.4g   %8.3f  %7llu   %-16s   %u, about %s",
                              factor,
                              text_of(trial.end).c_str(),
@@ -245,7 +241,7 @@ namespace scree
   End find_safety(const Parameters &parameters, const MPI_Comm communicator)
   {
     check(parameters);
-    Parameters(parameters.case_file).reduce_strength(parameters.safety.lower); // throws if there is none, before files
+    Parameters(parameters.case_file).reduce_strength(0.5); // throws if there is none, before files
     return Trials<dim>(parameters, communicator).search();
   }
 

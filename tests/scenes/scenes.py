@@ -70,8 +70,8 @@ def drop(scree):
     friction = math.tan(math.radians(20))
     pressed = mass * gravity * 0.2 + at(table, "Momentum y (N s)", 0.2)  # impulse of the floor, while the block vibrates
     check("slide: momentum over that by the friction of the floor's impulse", at(table, "Momentum x (N s)", 0.2) / (mass - friction * pressed), 1 - 1e-6, 1 + 1e-6)
-    run(scree, "columns/mohr_coulomb_collapse", "rest", {**slide, "Soil/Initial velocity": "0; 0", "Probes/Wall forces": "true"})
-    force = np.mean(read_table("rest/probe_walls")["Bottom soil y (N)"][1:])
+    table = run(scree, "columns/mohr_coulomb_collapse", "rest", {**slide, "Soil/Initial velocity": "0; 0", "Probes/Wall forces": "true"})
+    force = np.mean(table["Bottom soil y (N)"][1:])
     check("rest: force on the floor over weight", force / (mass * gravity), -1.01, -0.99)
 
 

@@ -43,10 +43,10 @@ namespace scree
     bool is_elastic            = false; ///< all bodies are linear elastic
     double courant_of_transfer = 0;     ///< see TransferParameters::courant_number()
     WaveMedium mean;                    ///< means over the volume of the soil
-    WaveMedium fastest;                 ///< the point with the fastest pressure wave
-    double grain_density  = 0;          ///< kg/m^3, mean
-    double porosity       = 0;          ///< mean
-    double grain_diameter = 0;          ///< of friction that grows with the rate, m, smallest of all bodies; 0: none
+    double largest_wave_speed = 0;      ///< of all points, m/s
+    double grain_density      = 0;      ///< kg/m^3, mean
+    double porosity           = 0;      ///< mean
+    double grain_diameter     = 0;      ///< of friction that grows with the rate, m, smallest of all bodies; 0: none
 
     bool has_water        = false; ///< whether there is a subsection Water
     bool is_single_point  = false; ///< whether the soil's points carry the water
@@ -115,16 +115,6 @@ namespace scree
   template <int dim>
   SceneNumbers survey(const Simulation<dim> &simulation, const Parameters &parameters, const MPI_Comm communicator);
 
-  /// Which model a scene needs.
-  enum class Regime
-  {
-    dry,        ///< there is no water
-    free_water, ///< there is no soil
-    drained, ///< excess pressure leaves as fast as it comes: soil on its own, with the hydrostatic pressure's buoyancy
-    undrained, ///< water stays where it is in the soil: soil and water move as one
-    coupled    ///< neither
-  };
-
   /// Where the simpler models are within 5 % of soil and water, measured: doc/studies/pages/drained_or_coupled.md
   /// (columns that collapse in air and under water and that are loaded, until 4 sqrt(H/g)).
   namespace thresholds
@@ -141,26 +131,21 @@ namespace scree
     constexpr double consolidates_above = 4. / undrained_above;
   } // namespace thresholds
 
-  /// A regime, and why.
-  struct RegimeChoice
+  /// What to choose, and why.
+  struct Choice
   {
-    Regime regime;    ///< model that the scene needs
     std::string name, ///< as the report writes it
         reason;       ///< the numbers behind it, as a sentence
   };
 
-  /// Finds the simplest model that is within 5 % in this scene, by the thresholds.
-  RegimeChoice regime_choice(const SceneNumbers &scene);
+  // The choices and laws for a scene are rows of source/advice/choices.table.
 
-  /// Whose points should carry the water, and why.
-  struct PointSetChoice
-  {
-    PointSets sets;     ///< recommended formulation
-    std::string reason; ///< why, as a sentence
-  };
+  /// The simplest model that is within 5 % in a scene: "dry", "water alone", "drained" (excess pressure leaves as fast
+  /// as it comes), "undrained" (water stays where it is in the soil), or "coupled".
+  Choice model_for(const SceneNumbers &scene);
 
-  /// Recommends a formulation for a scene and its regime.
-  PointSetChoice point_sets_for(const Regime regime, const SceneNumbers &scene);
+  /// Whose points should carry the water of a scene: "single" or "double".
+  Choice water_points_for(const SceneNumbers &scene);
 
   /// A measured law of convergence: relative error = factor (h/H)^order, down to the resolution that carries motion and
   /// the smallest error that was measured. Of the run-out it is the largest error that was measured.
@@ -199,28 +184,14 @@ namespace scree
   /// The entries of subsection Time step that serve a scene, by measurement: the rest stays as it is.
   TimeStepParameters time_step_for(const SceneNumbers &scene, TimeStepParameters present);
 
-  /// What steps of a case take on this machine, core-seconds of all ranks together.
-  struct StepCost
-  {
-    double seconds = 0;                   ///< a step
-    std::map<TimerSection, double> parts; ///< of `seconds`
+  /// What a step of a case takes on this machine, by part: core-seconds of all ranks together.
+  using StepCost = std::map<std::string, double>;
 
-    /// 0 if the part was not met.
-    double seconds_of(const TimerSection part) const
-    {
-      const auto found = parts.find(part);
-      return found == parts.end() ? 0. : found->second;
-    }
+  /// Name of what is in no part.
+  constexpr const char *other_parts = "everything else";
 
-    /// What is in no part.
-    double rest() const
-    {
-      double sum = seconds;
-      for (const auto &[part, of_part] : parts)
-        sum -= of_part;
-      return std::max(0., sum);
-    }
-  };
+  /// Of all parts, core-seconds.
+  double seconds_of(const StepCost &cost);
 
   /// What limits the steps for a while.
   struct SpeedInterval
@@ -238,11 +209,9 @@ namespace scree
     double n_points = 0;                  ///< of soil and water
     StepCost first,                       ///< cost of the first steps
         later;                            ///< cost of the steps after them
-    double setup          = 0;     ///< what the very first step takes beyond `first`: to make room, start libraries
-    double picture        = 0,     ///< cost of writing a picture, core-seconds
-        row               = 0;     ///< cost of writing a row of statistics, core-seconds
-    double memory         = 0;     ///< of all ranks, bytes
-    double program_memory = 1.2e8; ///< of `memory`, what does not grow with points and cells, bytes
+    double setup   = 0; ///< what the very first step takes beyond `first`: to make room, start libraries
+    double picture = 0, ///< cost of writing a picture, core-seconds
+        row        = 0; ///< cost of writing a row of statistics, core-seconds
 
     /// Of all intervals, s.
     double duration() const
@@ -262,7 +231,6 @@ namespace scree
     double n_steps        = 0; ///< number of time steps
     double step_seconds   = 0; ///< core-seconds
     double output_seconds = 0; ///< core-seconds
-    double memory         = 0; ///< bytes
 
     /// Cost of steps and output, core-seconds.
     double seconds() const
@@ -271,16 +239,12 @@ namespace scree
     }
   };
 
-  /// When a run steps and writes.
-  struct Schedule
-  {
-    TimeStepParameters time_step; ///< entries of subsection Time step
-    OutputParameters output;      ///< entries of subsection Output
-  };
-
   /// The cost of a run of `scene` that goes as was seen: the steps by the speeds that limit them, their cost by the
   /// first and the later ones. What was not seen of the run goes on as the last of what was.
-  RunCost cost_of_run(const SceneNumbers &scene, const Observation &seen, const Schedule &schedule);
+  RunCost cost_of_run(const SceneNumbers &scene,
+                      const Observation &seen,
+                      const TimeStepParameters &time_step,
+                      const OutputParameters &output);
 
   /// First steps that were seen in full, and what came later in a pilot, a run of the whole case with wider cells. A
   /// part of the later steps takes that many times as long as in the first ones as it does in the pilot; what the first
@@ -294,7 +258,7 @@ namespace scree
   Observation with_cell_size(Observation seen, const SceneNumbers &scene, const double cell_size);
 
   /// The run of the scene's soil without its water.
-  Observation without_water(Observation seen, const SceneNumbers &scene);
+  Observation without_water(const Observation &seen, const SceneNumbers &scene);
 
   /// Takes the time of the first steps of a run, until rank 0 has spent `seconds` core-seconds or the run is at its
   /// end, and of what is written then; later steps count as the first. Collective.

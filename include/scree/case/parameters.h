@@ -14,6 +14,7 @@
 #include <scree/postprocess/probes.h>
 #include <scree/schemes/time_step.h>
 #include <scree/seeding/seeding.h>
+#include <scree/transfer/transfer_parameters.h>
 
 namespace scree
 {
@@ -103,8 +104,6 @@ namespace scree
   struct SafetyParameters
   {
     double strength_factor = 1;    ///< divides the strength from the release on
-    double lower           = 0.5;  ///< smallest factor that is tried
-    double upper           = 5;    ///< largest factor that is tried
     double tolerance       = 0.01; ///< of the factor
     double displacement    = 0.02; ///< of a slope that fails, over its height
 
@@ -113,14 +112,6 @@ namespace scree
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
-
-    /// Throws EntryError at impossible combinations.
-    void check() const
-    {
-      require_entry(lower + tolerance < upper,
-                    { "Safety", "Upper factor", upper },
-                    "it must exceed \"Lower factor\" = " + number_text(lower) + " by more than the tolerance.");
-    }
   };
 
   /// Everything a `.prm` file says, checked. Each member's own add_parameters() names its entries.

@@ -2,11 +2,8 @@
 #ifndef scree_postprocess_probes_h
 #define scree_postprocess_probes_h
 
-#include <scree/boundary/boundary_conditions.h>
 #include <scree/io/run_folder.h>
 #include <scree/postprocess/measures.h>
-#include <scree/step/step_report.h>
-#include <scree/transfer/water_transfer.h>
 
 namespace scree
 {
@@ -89,15 +86,14 @@ namespace scree
     std::vector<std::vector<double>> points; ///< coordinates, m: one point, or both ends of a line
   };
 
-  /// Subsection Probes: what is written of places, lines, verticals, the front and the walls.
+  /// Subsection Probes: what is written of places, lines, verticals and the front, and whether of the walls.
   struct ProbeParameters
   {
-    std::string places,                 ///< NAME: x, y; ...
-        lines,                          ///< NAME: x, y to x, y; ...
-        verticals;                      ///< NAME: x; ..., in 3D NAME: x, y; ...
-    unsigned int places_a_line = 51;    ///< number of places on each line
-    double front_thickness     = 0;     ///< m; 0: no front
-    bool wall_forces           = false; ///< whether forces on the faces of the box are written
+    std::string places,             ///< NAME: x, y; ...
+        lines,                      ///< NAME: x, y to x, y; ...
+        verticals;                  ///< NAME: x; ..., in 3D NAME: x, y; ...
+    double front_thickness = 0;     ///< m; 0: no front
+    bool wall_forces       = false; ///< whether statistics have the forces on the faces of the box
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -116,9 +112,7 @@ namespace scree
   {
     const std::list<SoilBody<dim>> &bodies;  ///< bodies of soil
     const std::list<WaterPhase<dim>> &water; ///< empty in a dry scene
-    const Budget<dim> &totals;               ///< of this rank since the start
     double time;                             ///< s
-    const WaterView<dim> *view;              ///< null in a dry scene
   };
 
   /// The files `probe_NAME` and `probe_NAME.csv`: tables like `statistics`, a row a time; those of lines have a row a
@@ -127,15 +121,14 @@ namespace scree
   class Probes
   {
   public:
-    /// @param water_walls null in a dry scene
+    /// Grid and folder are kept by reference.
     Probes(const ProbeParameters &parameters,
            const BackgroundGrid<dim> &grid,
-           const BoundaryConditions<dim> &walls,
-           const BoundaryConditions<dim> *water_walls,
            const bool has_soil,
+           const bool has_water,
            RunFolder &folder);
 
-    /// Adds a row to the files of places, verticals, front and walls. Collective.
+    /// Adds a row to the files of places, verticals and front. Collective.
     void write_rows(const ProbedState<dim> &state)
     {
       write(state, false);
@@ -153,14 +146,12 @@ namespace scree
       return tables;
     }
 
-    /// Saves or loads the state of the files, and that of the wall forces (Boost).
+    /// Saves or loads the state of the files (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
       for (TableFile &table : tables)
         archive &table;
-      if (with_wall_forces)
-        archive &at_last_forces;
     }
 
   private:
@@ -176,25 +167,27 @@ namespace scree
       std::function<Rows(const State &)> rows; // without the time; one a table; a single table has all of them
     };
 
-    /// What the walls have given at some time.
-    struct Impulses
+    /// @param places a table each
+    void add_group(const bool of_pictures,
+                   const std::vector<NamedPlace> &places,
+                   const std::vector<std::string> &columns,
+                   const std::function<Rows(const State &)> &rows);
+    void add_places(const std::vector<NamedPlace> &list);
+    void add_line(const NamedPlace &line);
+    void add_verticals(const std::vector<NamedPlace> &list);
+    void add_front(const double thickness);
+
+    /// Those of the phases that there are.
+    std::vector<std::string> columns_of(const std::vector<std::string> &of_soil,
+                                        const std::vector<std::string> &of_water) const;
+    std::vector<std::string> columns_of_state() const
     {
-      bool are_known               = false;
-      double time                  = 0;  ///< s
-      std::vector<double> of_walls = {}; ///< of all ranks, wall by wall: on the soil, on the water, N s
+      return columns_of(PlaceValues<dim>::names_of_soil(), PlaceValues<dim>::names_of_water());
+    }
 
-      template <class Archive>
-      void serialize(Archive &archive, const unsigned int)
-      {
-        archive &are_known &time &of_walls;
-      }
-    };
-
-    /// The mean forces of soil and water on the walls since the last call, N (2D: N/m), nan at the first one: wall by
-    /// wall of the soil and of the water (what walls take of their motion; the soil's is the effective one), and the
-    /// pore pressure's across the wall at this instant, of its positive part over the cells that hold water.
-    /// Collective.
-    std::vector<double> wall_forces(const State &state, const BackgroundGrid<dim> &grid);
+    /// Calls `act` with the soil's points as lumps and true, and with the water's and false.
+    template <typename Act>
+    void for_each_phase(const State &state, const Act &act) const;
 
     void write(const State &state, const bool of_pictures)
     {
@@ -217,11 +210,11 @@ namespace scree
       return rows;
     }
 
-    const bool has_soil, has_water, with_wall_forces;
+    const BackgroundGrid<dim> &grid;
+    RunFolder &folder;
+    const bool has_soil, has_water;
     std::list<TableFile> tables;
     std::vector<Group> groups;
-    std::vector<unsigned int> walls; // faces that are closed to soil or water
-    Impulses at_last_forces;
   };
 } // namespace scree
 

@@ -5,6 +5,7 @@
 #include <scree/boundary/obstacle.h>
 #include <scree/postprocess/soil_motion.h>
 #include <scree/step/step_report.h>
+#include <scree/transfer/water_transfer.h>
 
 #include <boost/range/adaptor/map.hpp>
 #include <boost/range/iterator_range.hpp>
@@ -168,6 +169,7 @@ namespace scree
         contacts                              = false;   ///< contact between bodies
     const DiscreteLevelSet<dim> *bed          = nullptr; ///< the bed; null without it
     const std::list<Obstacle<dim>> *obstacles = nullptr; ///< the obstacles; null without them
+    std::vector<unsigned int> walls           = {};      ///< faces of the box whose forces have columns
     double mass_scaling                       = 1.;      ///< see BodyForces
   };
 
@@ -190,6 +192,7 @@ namespace scree
     const SceneFeatures<dim> &further;       ///< what the scene has
     const std::list<SoilBody<dim>> &bodies;  ///< points of this rank
     const std::list<WaterPhase<dim>> &water; ///< points of this rank; empty without water
+    const WaterView<dim> *view;              ///< the water at the nodes; null without
     const RowHistory<dim> &before;           ///< the start and the last row
     const UpdateReport &last_step;           ///< of this rank
     const PointSums<dim> sums;               ///< of one pass over all points
@@ -270,6 +273,7 @@ namespace scree
 
     /// Makes a row: of soil and water together, of the soil if there is any, and of `water` unless it is empty.
     /// Collective.
+    /// @param view asked for the pressure on walls; null without
     /// @return what the row is of; its `before` has this row already
     Snapshot<dim> collect(const std::list<SoilBody<dim>> &bodies,
                           const std::list<WaterPhase<dim>> &water,
@@ -277,7 +281,8 @@ namespace scree
                           const double time,
                           const unsigned long long step,
                           const double time_step,
-                          const UpdateReport &last_step);
+                          const UpdateReport &last_step,
+                          const WaterView<dim> *view = nullptr);
 
     /// The start of the run, once its first row has been made.
     BalanceStart<dim> &start()

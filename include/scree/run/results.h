@@ -62,9 +62,10 @@ namespace scree
                        parameters.contact_groups().n > 1,
                        scene.bed.get(),
                        &scene.obstacles,
+                       faces_with_forces(scene),
                        scene.forcing.mass_scaling() })
         , rows(folder, "statistics")
-        , probes(parameters.probes, scene.grid, scene.walls, scene.water_walls.get(), !scene.bodies.empty(), folder)
+        , probes(parameters.probes, scene.grid, !scene.bodies.empty(), parameters.has_water, folder)
         , maps(parameters.output.maps,
                { parameters.bed.map_origin, parameters.map_system },
                { parameters.end_time, parameters.output.interval },
@@ -119,12 +120,19 @@ namespace scree
     /// Output of the state as it is. Collective.
     void write_row(const RunState<dim> &state)
     {
-      const Snapshot<dim> now = statistics.collect(
-          scene.bodies, scene.water, state.totals, state.time, state.step, state.time_step, state.last_update);
+      const std::unique_ptr<WaterView<dim>> view = scheme.water_view();
+      const Snapshot<dim> now                    = statistics.collect(scene.bodies,
+                                                   scene.water,
+                                                   state.totals,
+                                                   state.time,
+                                                   state.step,
+                                                   state.time_step,
+                                                   state.last_update,
+                                                   view.get());
       if (!balances.has_looked())
         balances.look(now.balance());
       rows.append(statistics.columns(), { statistics.values() });
-      probes.write_rows(probed_state(state, scheme.water_view().get()));
+      probes.write_rows({ scene.bodies, scene.water, state.time });
       maps.sample(scene.bodies, state.time);
       statistics.require_numbers(state.time);
     }
@@ -134,7 +142,7 @@ namespace scree
     {
       const std::unique_ptr<WaterView<dim>> view = scheme.water_view();
       FileJob job = graphics.write(scene.bodies, scheme.soil_field(), state.time, view.get());
-      probes.write_lines(probed_state(state, view.get()));
+      probes.write_lines({ scene.bodies, scene.water, state.time });
       job.stages.push_back(maps.writing(state.time));
       job.failed = [this](const std::string &fault) {
         folder.require_presence();
@@ -228,6 +236,16 @@ namespace scree
       return faces;
     }
 
+    /// Faces of the box whose forces have columns: those that are closed to soil or water, if the case asks for them.
+    static std::vector<unsigned int> faces_with_forces(const Scene<dim> &scene)
+    {
+      std::vector<unsigned int> faces;
+      for (unsigned int face = 0; scene.parameters.probes.wall_forces && face < 2 * dim; ++face)
+        if (!scene.walls.is_open(face) || (scene.water_walls && !scene.water_walls->is_open(face)))
+          faces.push_back(face);
+      return faces;
+    }
+
     /// Where the results are.
     std::string text_of_results() const
     {
@@ -236,11 +254,6 @@ namespace scree
                  ? path + "statistics, log.txt"
                  : path + "solution/" + (scene.bodies.empty() ? "water" : "points") +
                        ".pvd (ParaView), statistics, log.txt";
-    }
-
-    ProbedState<dim> probed_state(const RunState<dim> &state, const WaterView<dim> *view) const
-    {
-      return { scene.bodies, scene.water, state.totals.balance, state.time, view };
     }
 
     const Parameters &parameters;

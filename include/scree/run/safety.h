@@ -19,10 +19,18 @@ namespace scree
         (end == TrialEnd::fails ? fails : rests) = factor;
     }
 
-    /// Trials that a bisection still takes; before the slope has failed, one that begins at the upper factor.
-    unsigned int n_left(const SafetyParameters &safety) const
+    /// The factor to try: from 1 on 30 % more until the slope fails, then the middle.
+    double next() const
     {
-      return std::max(0., std::ceil(std::log2((std::min(fails, safety.upper) - rests) / safety.tolerance) - 1e-9));
+      return std::isfinite(fails) ? 0.5 * (rests + fails) : rests < 1. ? 1. : 1.3 * rests;
+    }
+
+    /// Trials that a bisection to the `tolerance` still takes, if the slope fails with the next factor.
+    unsigned int n_left(const double tolerance) const
+    {
+      const bool has_failed = std::isfinite(fails);
+      const double width    = (has_failed ? fails : next()) - rests;
+      return (has_failed ? 0 : 1) + std::max(0., std::ceil(std::log2(width / tolerance) - 1e-9));
     }
 
     /// "above 1.3", "1.3 to 1.69"; empty before a trial.
@@ -34,20 +42,20 @@ namespace scree
     }
   };
 
-  /// Searches the factor: the lower factor, then from 1 up in steps of 30 % until the slope fails, then by bisection to
-  /// the tolerance. Throws EntryError if the slope fails with the lower factor, or rests with the upper one.
+  /// Searches the factor: from 1 up in steps of 30 % until the slope fails, then by bisection to the tolerance. Throws
+  /// EntryError if the slope still rests with a factor of 100.
   /// @param try_factor makes a trial with a factor and adds it to the bracket
   /// @param bracket of the trials so far
   /// @return whether the search has come to its end: no trial is undecided, as it was asked to stop
-  bool search_factor(const SafetyParameters &safety,
+  bool search_factor(const double tolerance,
                      const std::function<TrialEnd(double)> &try_factor,
                      const FactorBracket &bracket);
 
   /// Searches the factor of safety of a case by strength reduction (@source{griffiths1999}), and writes it to the
   /// screen and to the folder `safety` of the run folder: `log.txt`, `safety.csv` with one row a trial, and the run
   /// folders `rests` and `fails` of the last trials of either end, with pictures. Collective. Throws EntryError if the
-  /// case has water and no drained settling, or Nor-Sand, gravity is missing, no law has strength, or the factor is not
-  /// in the range.
+  /// case has water and no drained settling, or Nor-Sand, gravity is missing, no law has strength, or there is no
+  /// factor.
   /// @param parameters of the case, as it was read; each trial reads its file again
   template <int dim>
   End find_safety(const Parameters &parameters, const MPI_Comm communicator);

@@ -29,19 +29,13 @@ namespace scree
 
   void InertialFrictionParameters::add_parameters(ParameterHandler &prm)
   {
-    prm.add_parameter("Grain diameter",
-                      grain_diameter,
-                      "m; grain diameter d in the inertial number I of dry grains. 0: friction does not depend on the "
-                      "rate of shear. Element tests are slow and do not depend on it.",
-                      Patterns::Double(0));
-    prm.add_parameter("Reference inertial number",
-                      reference_number,
-                      "Inertial number I_0 at which half of \"Friction increase\" is reached.",
-                      Patterns::Double(1e-6));
-    prm.add_parameter("Friction increase",
-                      friction_increase,
-                      "Largest increase of tau/p with the rate of shear: tau/p grows by this value/(1 + I_0/I).",
-                      Patterns::Double(0, 2));
+    prm.add_parameter(
+        "Grain diameter",
+        grain_diameter,
+        "m; grain diameter d in the inertial number I of dry grains: tau/p grows by 0.26/(1 + 0.3/I) with "
+        "the rate of shear. 0: friction does not depend on it. Element tests are slow and do not depend "
+        "on it.",
+        Patterns::Double(0));
   }
 
 
@@ -197,9 +191,10 @@ namespace scree
                   "as an angle of direct shear it has no friction angle phi below 89 degrees; lower it, or change "
                   "\"Friction angle kind\".");
     require_entry(inertial_friction.grain_diameter == 0 || sine() + inertial_friction.friction_increase < 1,
-                  { subsection, "Friction increase", inertial_friction.friction_increase },
-                  "with sin(phi) = " + number_text(sine()) +
-                      " the grains would bear tension. Write less than 1 - sin(phi).");
+                  { subsection, "Grain diameter", inertial_friction.grain_diameter },
+                  "with sin(phi) = " + number_text(sine()) + " grains in rapid shear, whose tau/p is larger by " +
+                      number_text(inertial_friction.friction_increase) +
+                      ", would bear tension. Write a smaller \"Friction angle\", or 0.");
     require_entry(friction_angle > 0 || cohesion > 0,
                   { subsection, "Cohesion", cohesion },
                   "without friction the soil needs some cohesion to have any strength.");

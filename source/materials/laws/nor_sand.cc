@@ -17,16 +17,8 @@ namespace scree
   } // namespace
 
 
-  void SandParameters::add_limits(ParameterHandler &prm, const std::string &text)
+  void SandParameters::add_substeps(ParameterHandler &prm, const std::string &text)
   {
-    prm.add_parameter("Initial overconsolidation ratio",
-                      initial_overconsolidation,
-                      "Image pressure at the start over that of the yield surface through the stress.",
-                      Patterns::Double(1));
-    prm.add_parameter("Minimum pressure",
-                      minimum_pressure,
-                      "Pa; pressure below which the grains separate: the stress is 0, and the gap is stored.",
-                      Patterns::Double(0));
     prm.add_parameter("Substep strain",
                       substep_strain,
                       "Largest component of the strain increment of one return mapping." + text,
@@ -38,8 +30,6 @@ namespace scree
   {
     for (const LawEntry &entry : entries)
       require_entry(entry.value > 0, { subsection, entry.name, entry.value }, "it must be positive.");
-    require_entry(
-        minimum_pressure > 0, { subsection, "Minimum pressure", minimum_pressure }, "it must be positive. 1 Pa does.");
   }
 
 
@@ -50,11 +40,12 @@ namespace scree
     prm.add_parameter("Swelling index", swelling_index, "Elastic compressibility kappa in ln P.", not_negative);
     prm.add_parameter(
         "Compression index", compression_index, "Slope lambda of the critical state line in ln P.", not_negative);
-    prm.add_parameter("Critical state specific volume",
-                      critical_state_specific_volume,
-                      "Specific volume v_c0 of the critical state line at the reference pressure.",
-                      Patterns::Double(1));
-    prm.add_parameter("Reference pressure", reference_pressure, "Pa; pressure at which v_c0 holds.", not_negative);
+    prm.add_parameter(
+        "Critical state specific volume",
+        critical_state_specific_volume,
+        "Specific volume v_c0 of the critical state line at 1 Pa: Gamma + lambda ln(1000) of its value Gamma "
+        "at 1 kPa.",
+        Patterns::Double(1));
     prm.add_parameter("Critical stress ratio M",
                       critical_stress_ratio,
                       "Stress ratio q/P at critical state; 6 sin(phi)/(3 - sin(phi)) of a friction angle phi.",
@@ -76,7 +67,7 @@ namespace scree
                       initial_specific_volume,
                       "Specific volume v_0 = 1 + void ratio at the start.",
                       Patterns::Double(1));
-    add_limits(prm, "");
+    add_substeps(prm, "");
   }
 
 
@@ -84,7 +75,6 @@ namespace scree
   {
     check_positive(subsection,
                    { modulus(),
-                     { "Reference pressure", reference_pressure },
                      { "Swelling index", swelling_index },
                      { "Critical stress ratio M", critical_stress_ratio },
                      { "Hardening coefficient", hardening_coefficient } });
@@ -149,9 +139,10 @@ namespace scree
                       "H_psi: the plastic hardening modulus is H_0 - H_psi psi, and at least 10.",
                       any);
     prm.add_parameter("Initial void ratio", initial_void_ratio, "Void ratio e_0 at the start.", not_negative);
-    add_limits(prm,
-               " Backward Euler's error of q in a drained triaxial test is about 3 % at 5e-4, and in proportion to it; "
-               "fits to tests need 2e-4.");
+    add_substeps(
+        prm,
+        " Backward Euler's error of q in a drained triaxial test is about 3 % at 5e-4, and in proportion to it; "
+        "fits to tests need 2e-4.");
   }
 
 
@@ -196,7 +187,6 @@ namespace scree
       : elastic(elastic)
       , line(line)
       , log_minimum_pressure(std::log(parameters.minimum_pressure))
-      , initial_overconsolidation(parameters.initial_overconsolidation)
       , initial_volume(initial_volume)
   {
     substep_strain      = parameters.substep_strain;
@@ -283,9 +273,7 @@ namespace scree
   NorSand::NorSand(const NorSandParameters &parameters)
       : SandLaw(parameters,
                 { parameters.swelling_index, parameters.shear_modulus },
-                { parameters.critical_state_specific_volume,
-                  parameters.compression_index,
-                  std::log(parameters.reference_pressure) },
+                { parameters.critical_state_specific_volume, parameters.compression_index, 0. /* ln of 1 Pa */ },
                 parameters.initial_specific_volume,
                 "specific_volume")
       , parameters(parameters)
@@ -388,7 +376,7 @@ namespace scree
                 ExcMessage("Nor-Sand cannot bear the initial stress: q/P = " + std::to_string(eta) +
                            " must stay below M/N = " + std::to_string(M / N) + ". Remedy: a K0 closer to 1."));
     const double log_ratio = N > 0 ? std::log((1 - N * eta / M) / (1 - N)) / exponent : 1 - eta / M;
-    return std::log(initial_overconsolidation) + log_pressure - log_ratio;
+    return log_pressure - log_ratio;
   }
 
 
@@ -508,7 +496,7 @@ namespace scree
                            std::to_string(parameters.initial_void_ratio) + " and pressure " +
                            std::to_string(std::exp(log_pressure)) +
                            " Pa. Remedy: a K0 closer to 1, or a smaller \"Initial void ratio\"."));
-    return std::min(through + std::log(initial_overconsolidation), cap);
+    return through;
   }
 
   template class SandLaw<NorSand, ConstantShear>;

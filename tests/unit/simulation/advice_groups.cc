@@ -18,7 +18,7 @@ SceneNumbers terzaghi()
   scene.courant_of_transfer = 0.6;
   scene.is_elastic          = true;
   scene.mean                = { 1e6 / (3 * (1 - 2 * 0.2)), 1e6 / (2 * 1.2), 1590 };
-  scene.fastest             = scene.mean;
+  scene.largest_wave_speed  = scene.mean.speed();
   scene.grain_density       = 2650;
   scene.porosity            = 0.4;
   scene.has_water           = true;
@@ -42,8 +42,9 @@ SceneNumbers slope()
   scene.fall         = 0.3;
   scene.is_elastic   = false;
   scene.mean         = { 4e6, 4e6, 1500 };
-  scene.fastest      = { 7e6, 4e6, 1500 };
   scene.conductivity = 5e-3;
+
+  scene.largest_wave_speed = WaveMedium{ 7e6, 4e6, 1500 }.speed();
   return scene;
 }
 
@@ -73,7 +74,9 @@ void test_groups()
 
 void expect_regime(const SceneNumbers &scene, const std::string &expected)
 {
-  require(regime_choice(scene).name == expected, "It is " + regime_choice(scene).name + ", not " + expected);
+  const Choice model = model_for(scene);
+  require(model.name == expected, "It is " + model.name + ", not " + expected);
+  require(model.reason.find('{') == std::string::npos, "A number is missing: " + model.reason);
 }
 
 void test_regimes()
@@ -115,9 +118,7 @@ void test_regimes()
   SceneNumbers reservoir = terzaghi(), tight = slope();
   reservoir.water_fills_soil     = false;
   tight.conductivity             = 1e-9;
-  const auto has_points_of_water = [](const SceneNumbers &scene) {
-    return point_sets_for(regime_choice(scene).regime, scene).sets == PointSets::double_point;
-  };
+  const auto has_points_of_water = [](const SceneNumbers &scene) { return water_points_for(scene).name == "double"; };
   require(has_points_of_water(slope()) && !has_points_of_water(tight) && !has_points_of_water(terzaghi()) &&
               has_points_of_water(reservoir),
           "points of water");
@@ -179,16 +180,16 @@ void test_resolution()
 }
 
 /// Steps of a clock that always may take `step`.
-double clock_steps(const Schedule &schedule, const double end, const double step)
+double clock_steps(const OutputParameters &output, const double end, const double step)
 {
-  TimeStepper clock(schedule.time_step);
-  double next = schedule.output.interval;
+  TimeStepper clock{ TimeStepParameters() };
+  double next = output.interval;
   while (clock.time() < end * (1 - 1e-12))
     {
       const double due = std::min(end, next);
       clock.advance(clock.next_step(step, due), due);
       if (clock.time() >= next * (1 - 1e-12))
-        next += schedule.output.interval;
+        next += output.interval;
     }
   return clock.step();
 }
@@ -197,48 +198,48 @@ double clock_steps(const Schedule &schedule, const double end, const double step
 Observation seen(const SceneNumbers &scene)
 {
   Observation seen;
-  seen.n_first       = 10;
-  seen.n_points      = scene.n_points();
-  seen.first.parts   = { { TimerSection::stress, 5e-4 },
-                         { TimerSection::points_to_grid, 2e-4 },
-                         { TimerSection::pressure_solve, 2e-4 },
-                         { TimerSection::sort, 1e-4 } };
-  seen.first.seconds = 1e-3;
-  seen.later         = seen.first;
-  seen.memory        = 2e8;
-  seen.intervals     = { { 1e-3, scene.fastest.speed(), 0. } };
+  seen.n_first   = 10;
+  seen.n_points  = scene.n_points();
+  seen.first     = { { name_of(TimerSection::stress), 5e-4 },
+                     { name_of(TimerSection::points_to_grid), 2e-4 },
+                     { name_of(TimerSection::pressure_solve), 2e-4 },
+                     { name_of(TimerSection::sort), 1e-4 } };
+  seen.later     = seen.first;
+  seen.intervals = { { 1e-3, scene.largest_wave_speed, 0. } };
   return seen;
 }
 
 void test_cost()
 {
-  Schedule schedule;
-  schedule.output.interval  = 0.7;
+  OutputParameters output;
+  output.interval          = 0.7;
+  const auto cost_of_scene = [&](const SceneNumbers &scene, const Observation &seen) {
+    return cost_of_run(scene, seen, TimeStepParameters(), output);
+  };
+  const std::string law = name_of(TimerSection::stress), solve = name_of(TimerSection::pressure_solve),
+                    sort    = name_of(TimerSection::sort);
   const SceneNumbers column = terzaghi();
   const Observation start   = seen(column);
-  const RunCost cost        = cost_of_run(column, start, schedule);
-  expect(cost.first_step / (0.6 * 0.05 / column.fastest.speed()), 1, 1e-6, "Terzaghi: step over 0.6 h/c");
-  expect(cost.n_steps / clock_steps(schedule, column.end_time, cost.first_step), 1, 1e-6, "steps over the clock's");
-  expect(cost.step_seconds / cost.n_steps / start.first.seconds, 1, 1e-6, "seconds of steps over steps times step");
+  const RunCost cost        = cost_of_scene(column, start);
+  expect(cost.first_step / (0.6 * 0.05 / column.largest_wave_speed), 1, 1e-6, "Terzaghi: step over 0.6 h/c");
+  expect(cost.n_steps / clock_steps(output, column.end_time, cost.first_step), 1, 1e-6, "steps over the clock's");
+  expect(cost.step_seconds / cost.n_steps / seconds_of(start.first), 1, 1e-6, "seconds of steps over steps times step");
 
   // A pilot with a quarter of the points: its solve takes three times as long later, its sort, of which it saw nothing
   // at first, 2e-5 s; waves are twice as fast in the second half.
   Observation pilot       = start;
   pilot.n_points          = start.n_points / 4;
-  pilot.first.seconds     = 2.5e-4;
-  pilot.first.parts       = { { TimerSection::stress, 2e-4 }, { TimerSection::pressure_solve, 5e-5 } };
-  pilot.later.parts       = { { TimerSection::stress, 2e-4 },
-                              { TimerSection::pressure_solve, 1.5e-4 },
-                              { TimerSection::sort, 2e-5 } };
-  const double wave       = column.fastest.speed();
+  pilot.first             = { { law, 2e-4 }, { solve, 5e-5 } };
+  pilot.later             = { { law, 2e-4 }, { solve, 1.5e-4 }, { sort, 2e-5 } };
+  const double wave       = column.largest_wave_speed;
   pilot.intervals         = { { column.end_time / 2, wave, 0. }, { column.end_time / 2, 2 * wave, 0. } };
   const Observation whole = with_pilot(start, pilot);
-  const RunCost of_whole  = cost_of_run(column, whole, schedule);
-  expect(whole.later.seconds_of(TimerSection::stress) / 5e-4, 1, 1e-9, "with a pilot: law");
-  expect(whole.later.seconds_of(TimerSection::pressure_solve) / 2e-4, 3, 1e-9, "with a pilot: solve");
-  expect(whole.later.seconds_of(TimerSection::sort) / 2e-5, 4, 1e-9, "with a pilot: sort");
+  const RunCost of_whole  = cost_of_scene(column, whole);
+  expect(whole.later.at(law) / 5e-4, 1, 1e-9, "with a pilot: law");
+  expect(whole.later.at(solve) / 2e-4, 3, 1e-9, "with a pilot: solve");
+  expect(whole.later.at(sort) / 2e-5, 4, 1e-9, "with a pilot: sort");
   expect(of_whole.n_steps / cost.n_steps, 1.5, 5e-3, "with a pilot: steps over the first guess");
-  expect((of_whole.step_seconds - 10 * whole.first.seconds) / (of_whole.n_steps - 10) / whole.later.seconds,
+  expect((of_whole.step_seconds - 10 * seconds_of(whole.first)) / (of_whole.n_steps - 10) / seconds_of(whole.later),
          1,
          1e-6,
          "with a pilot: seconds of later steps");
@@ -248,13 +249,14 @@ void test_cost()
   const SceneNumbers finer   = with_cell_size(block, 0.025);
   const Observation of_block = seen(block), of_finer = with_cell_size(of_block, block, 0.025);
   expect(finer.n_points() / block.n_points(), 8, 1e-12, "halved cells in 3D: points");
-  expect(of_finer.later.seconds / of_block.later.seconds, 8, 1e-9, "halved cells in 3D: time of a step");
-  expect(cost_of_run(finer, of_finer, schedule).n_steps / cost_of_run(block, of_block, schedule).n_steps,
+  expect(seconds_of(of_finer.later) / seconds_of(of_block.later), 8, 1e-9, "halved cells in 3D: time of a step");
+  expect(cost_of_scene(finer, of_finer).n_steps / cost_of_scene(block, of_block).n_steps,
          2,
          0.5,
          "halved cells in 3D: steps");
   // All of the law, half of the transfer and the sort, nothing of the pressure.
-  expect(without_water(start, column).later.seconds / start.later.seconds, 0.65, 1e-9, "soil without its water");
+  expect(
+      seconds_of(without_water(start, column).later) / seconds_of(start.later), 0.65, 1e-9, "soil without its water");
 }
 
 const UnitTest registered("advice_groups", [] {

@@ -11,7 +11,7 @@ namespace test_factor_search
 {
 /// Of a slope that fails above `factor_of_safety`, and is stopped in the trial `n_trials`: the factors, and what
 /// follows.
-void search(const SafetyParameters &safety,
+void search(const double tolerance,
             const double factor_of_safety,
             const std::string &factors,
             const std::string &expected,
@@ -22,6 +22,7 @@ void search(const SafetyParameters &safety,
   try
     {
       FactorBracket bracket;
+      bracket.rests         = 0.25; // after settling
       const auto try_factor = [&](const double factor) {
         tried << (n == 0 ? "" : " ") << factor;
         const TrialEnd end = ++n == n_trials             ? TrialEnd::undecided
@@ -30,8 +31,8 @@ void search(const SafetyParameters &safety,
         bracket.include(factor, end);
         return end;
       };
-      result << (search_factor(safety, try_factor, bracket) ? "" : "stopped: ") << bracket.text() << ", "
-             << bracket.n_left(safety) << " left";
+      result << (search_factor(tolerance, try_factor, bracket) ? "" : "stopped: ") << bracket.text() << ", "
+             << bracket.n_left(tolerance) << " left";
     }
   catch (const EntryError &error)
     {
@@ -62,26 +63,21 @@ void judge(const double speed, const double growth, const TrialEnd expected, con
 
 
 const UnitTest registered("factor_search", [] {
-  SafetyParameters safety;
-  const std::string larger = ": the slope still comes to rest with its strength divided by this. Write a larger one.";
-  search(safety, 1.374, "0.5 1 1.3 1.69 1.495 1.3975 1.34875 1.37312 1.38531 1.37922", "1.37312 to 1.37922, 0 left");
-  search(safety, 0.73, "0.5 1 0.75 0.625 0.6875 0.71875 0.734375 0.726562", "0.726562 to 0.734375, 0 left");
-  const std::string up = "0.5 1 1.3 1.69 2.197 2.8561 3.71293 4.82681";
-  search(safety, 3.83, up + " 4.26987 3.9914 3.85216 3.78255 3.81736 3.83476 3.82606", "3.82606 to 3.83476, 0 left");
-  search(safety, 7., up + " 5", "subsection Safety, entry \"Upper factor\" = 5" + larger);
-  search(safety, 1.374, "0.5 1 1.3", "stopped: above 1, 9 left", 3); // log2((5 - 1)/0.01) = 8.6
-  search(safety, 1.374, "0.5 1 1.3 1.69 1.495", "stopped: 1.3 to 1.69, 6 left", 5);
-  safety.lower     = 1.2;
-  safety.upper     = 1.5;
-  safety.tolerance = 0.1;
-  search(safety, 1.374, "1.2 1.5 1.35 1.425", "1.35 to 1.425, 0 left");
-  search(safety, 1.5, "1.2 1.5", "subsection Safety, entry \"Upper factor\" = 1.5" + larger);
-  search(
-      safety,
-      1.1,
-      "1.2",
-      "subsection Safety, entry \"Lower factor\" = 1.2: the slope does not come to rest with its strength divided by "
-      "this. Write a smaller one.");
+  search(0.01, 1.374, "1 1.3 1.69 1.495 1.3975 1.34875 1.37312 1.38531 1.37922", "1.37312 to 1.37922, 0 left");
+  search(0.01, 0.73, "1 0.625 0.8125 0.71875 0.765625 0.742188 0.730469 0.724609", "0.724609 to 0.730469, 0 left");
+  search(0.01,
+         3.83,
+         "1 1.3 1.69 2.197 2.8561 3.71293 4.82681 4.26987 3.9914 3.85216 3.78255 3.81736 3.83476 3.82606",
+         "3.82606 to 3.83476, 0 left");
+  search(0.01, 1.374, "1 1.3", "stopped: above 1, 6 left", 2); // of 1.3, and log2(0.3/0.01) = 4.9
+  search(0.01, 1.374, "1 1.3 1.69 1.495", "stopped: 1.3 to 1.69, 6 left", 4);
+  search(0.1, 1.374, "1 1.3 1.69 1.495 1.3975", "1.3 to 1.3975, 0 left");
+  search(50.,
+         1e9,
+         "1 1.3 1.69 2.197 2.8561 3.71293 4.82681 6.27485 8.15731 10.6045 13.7858 17.9216 23.2981 30.2875 39.3738 "
+         "51.1859 66.5417 86.5042 112.455",
+         "--safety: the soil still comes to rest with its strength divided by 112.455, so its own weight does not make "
+         "it fail. Check that the \"Region\" of the bodies has a slope, and the direction of \"Gravity\".");
 
   judge(1e-3, 4., TrialEnd::fails, 4.1); // faster and faster
   judge(0.01, 1., TrialEnd::fails, 20.); // steady

@@ -17,8 +17,8 @@ namespace scree
   struct InertialFrictionParameters
   {
     double grain_diameter    = 0;    ///< d, m; 0: friction does not depend on the rate
-    double reference_number  = 0.3;  ///< I_0, -
-    double friction_increase = 0.26; ///< Delta mu, -
+    double reference_number  = 0.3;  ///< I_0 of glass beads, -
+    double friction_increase = 0.26; ///< Delta mu of glass beads, -; less where the strength is divided
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);

@@ -10,13 +10,12 @@ namespace scree
   /// Entries of both forms of Nor-Sand.
   struct SandParameters : LawEntries
   {
-    double shear_modulus;                 ///< G, Pa; at the reference pressure, if it grows with pressure
-    double compression_index;             ///< lambda, slope of the critical state line in ln p
-    double reference_pressure;            ///< p_ref, Pa
-    double critical_stress_ratio;         ///< M, q/p at critical state; in triaxial compression
-    double initial_overconsolidation = 1; ///< image pressure over that of the yield surface through the stress
-    double minimum_pressure          = 1; ///< Pa; no stress below it
-    double substep_strain;                ///< largest component of dF - I in one return map
+    double shear_modulus;         ///< G, Pa; at the reference pressure, if it grows with pressure
+    double compression_index;     ///< lambda, slope of the critical state line in ln p
+    double critical_stress_ratio; ///< M, q/p at critical state; in triaxial compression
+    double substep_strain;        ///< largest component of dF - I in one return map
+
+    static constexpr double minimum_pressure = 1; ///< Pa; no stress below it
 
     LawEntry modulus() const override
     {
@@ -37,10 +36,10 @@ namespace scree
     }
 
   protected:
-    /// The last of the entries: overconsolidation, minimum pressure, and sub-steps with more `text`.
-    void add_limits(dealii::ParameterHandler &prm, const std::string &text);
+    /// The last of the entries: sub-steps, with more `text`.
+    void add_substeps(dealii::ParameterHandler &prm, const std::string &text);
 
-    /// Throws EntryError if one of these entries, or the minimum pressure, is not positive.
+    /// Throws EntryError if one of these entries is not positive.
     void check_positive(const std::string &subsection, const std::vector<LawEntry> &entries) const;
   };
 
@@ -49,7 +48,7 @@ namespace scree
   struct NorSandParameters : SandParameters
   {
     double swelling_index                 = 0.002; ///< kappa, elastic compressibility in ln P
-    double critical_state_specific_volume = 1.88;  ///< v_c0, on that line at the reference pressure
+    double critical_state_specific_volume = 1.88;  ///< v_c0, on that line at 1 Pa
     double yield_constant                 = 0.3;   ///< N, curvature of the yield surface; 0: Cam-Clay
     double potential_constant             = 0.3;   ///< Nbar, curvature of the plastic potential, at most N
     double hardening_coefficient          = 300;   ///< h, hardening coefficient
@@ -61,7 +60,6 @@ namespace scree
     {
       shear_modulus         = 4e6;
       compression_index     = 0.012;
-      reference_pressure    = 1;
       critical_stress_ratio = 0.7097;
       substep_strain        = 1e-3;
     }
@@ -76,6 +74,7 @@ namespace scree
   /// (@source{been1991}).
   struct JefferiesBeenParameters : SandParameters
   {
+    double reference_pressure  = 100e3; ///< p_ref, Pa, of the shear modulus
     double poisson_ratio       = 0.2;   ///< of the moduli at q = 0
     double modulus_exponent    = 0.5;   ///< n: moduli grow with (p/p_ref)^n
     double critical_void_ratio = 0.816; ///< Gamma, at 1 kPa
@@ -90,7 +89,6 @@ namespace scree
     {
       shear_modulus         = 80e6;
       compression_index     = 0.015;
-      reference_pressure    = 100e3;
       critical_stress_ratio = 1.188;
       substep_strain        = 5e-4;
     }
@@ -407,9 +405,8 @@ namespace scree
       return response;
     }
 
-    /// See Material::initialise(). The yield surface passes through the stress, times the overconsolidation ratio, as
-    /// far as a cap allows. Throws for tension and for stresses that no yield surface has. A stress below the minimum
-    /// pressure becomes no stress and no gap.
+    /// See Material::initialise(). The yield surface passes through the stress. Throws for tension and for stresses
+    /// that no yield surface has. A stress below the minimum pressure becomes no stress and no gap.
     void initialise(const PrincipalValues &wanted_stress,
                     PrincipalValues &strain,
                     PrincipalValues &stress,
@@ -521,8 +518,7 @@ namespace scree
       return converged;
     }
 
-    const double log_minimum_pressure;      ///< of Pa
-    const double initial_overconsolidation; ///< see SandParameters
+    const double log_minimum_pressure; ///< of Pa
 
   private:
     const Form &form() const
