@@ -222,7 +222,7 @@ namespace scree
                         (is_at_rest() ? "" : "so far: ") + ("H = " + short_text(last.fall)) +
                             " m, L = " + short_text(last.length) + " m, H/L = " + short_text(last.ratio) +
                             ", travel angle " + short_text(last.travel_angle) + " degrees; the toe has moved " +
-                            short_text(last.toe_displacement) + " m, the fastest soil " +
+                            short_text(last.toe_displacement) + " m, the soil at most " +
                             short_text(last.largest_displacement) + " m; deposit " + short_text(last.area) +
                             (dim == 2 ? " m, " : " m^2, ") + short_text(last.volume) + (dim == 2 ? " m^3/m" : " m^3"));
     double all        = 0.;

@@ -25,7 +25,7 @@ Warning     'Maximum time step' bounds 90 % of the steps.
 Motion      not at rest at the end, t = 1 s: failed soil moves at 3 m/s in the mean, the toe at 30
             m/s; at rest below 0.02 m/s (0.002 sqrt(g H))
 Run-out     so far: H = 87 m, L = 250 m, H/L = 0.348, travel angle 19.2 degrees; the toe has moved
-            200 m, the fastest soil 210 m; deposit 1.2e+03 m^2, 2e+03 m^3
+            200 m, the soil at most 210 m; deposit 1.2e+03 m^2, 2e+03 m^3
 Checks      fault: smallest V/V_0 0.5 (bound 0.6); Soil, point 3 at (1, 2) m
             within bounds: mass balance 0; points of soil lost 0
 Results     run
