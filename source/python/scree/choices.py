@@ -16,6 +16,7 @@ from scree import benchmarks
 from scree.command import ROOT
 from scree.studies import run as studies
 from scree.studies.cases import regimes, run_out, run_out_limits, saturated_run_out_limits, strength_reduction
+from scree.studies.limits import MASS, TIP, Limit
 from scree.studies.pages import table as lines_of
 from scree.studies.precision import DEFAULTS, LimitFit, at_finest, curve, ratio
 from scree.studies.study import reference_rows
@@ -36,9 +37,8 @@ def rows(study):
 
 def with_labels(study, labels):
     """The rows with these labels; `h` to within rounding."""
-    def has(row, name, value):
-        return abs(row[name] - value) < 1e-4 if name == "h" else row[name] == value
-    return [row for row in rows(study) if all(has(row, name, value) for name, value in labels.items())]
+    others = {name: value for name, value in labels.items() if name != "h"}
+    return rows(study).where(others).where(lambda row: "h" not in labels or abs(row["h"] - labels["h"]) < 1e-4)
 
 
 def one(study, **labels):
@@ -73,7 +73,7 @@ def start(scene, part):
 
 def deviations(group, name, start, number=lambda row: round(row["cells"])):
     """{H/h: deviation of a front from its value at h = 0, over the displacement at h = 0} of the sizes of a curve."""
-    limit = run_out.Limit(group, name)
+    limit = Limit(group, name)
     return {number(row): abs(row[name] - limit.value) / (limit.value - start) for row in group}
 
 
@@ -140,7 +140,7 @@ POND = {round(0.2 / h): max(abs(row["fall/exact"] - 1) for row in with_labels("w
 def wet_limits():
     """Of the front of 90 % of a loose saturated slope on friction, TPIC."""
     group = saturated_run_out_limits.curves(rows("saturated_run_out_limits"))[saturated_run_out_limits.SLOPE, saturated_run_out_limits.FRICTION, "TPIC"]
-    return deviations(group, saturated_run_out_limits.MASS, start(run_out.SLOPE, 0.9))
+    return deviations(group, MASS, start(run_out.SLOPE, 0.9))
 
 
 def tip_change():
@@ -151,8 +151,7 @@ def tip_change():
 
 def columns_of_grains():
     """Of the front of 99 % of a column with inertial friction."""
-    group = run_out_limits.curves(rows("run_out_limits"))[1., "FLIP", run_out_limits.WITH, run_out_limits.REPOSE, 3., run_out_limits.SAND]
-    return deviations(group, run_out_limits.TIP, 0.99)
+    return deviations(run_out_limits.curve_of(rows("run_out_limits")), TIP, 0.99)
 
 
 def bars():

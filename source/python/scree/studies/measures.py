@@ -109,14 +109,6 @@ def map_table(rows):
             *((name, *(worst(chosen, name) for chosen in groups.values()), f"{BOUNDS[name]:g}") for name in measured)]
 
 
-def grouped(rows, *names):
-    """{values of these columns: rows from the largest cells to the smallest}. Rows with a number of cells only get h = 1/cells."""
-    found = {}
-    for row in sorted(({"h": 1 / row["cells"], **row} if "cells" in row else row for row in rows), key=lambda row: -row["h"]):
-        found.setdefault(tuple(row[name] for name in names), []).append(row)
-    return found
-
-
 def cause(run):
     """Why a run stopped, in short; "-" for one that ended."""
     if run.ended:

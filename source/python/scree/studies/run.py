@@ -23,6 +23,7 @@ import tempfile
 from scree.command import ROOT, Command, program
 from scree.studies.charts import StabilityMap
 from scree.studies.pages import TOPICS, index_text, page_text, topic_of
+from scree.studies.rows import Rows
 from scree.studies.study import Run, Variant, prm_files
 
 INTERRUPTED = {-2, -9, -15, 130, 137, 143}  # by SIGINT, SIGKILL, SIGTERM, itself or below `timeout`: such a run is not kept
@@ -138,7 +139,7 @@ def write_table(rows, table):
 def read_table(table):
     """The rows of a table: numbers are floats, True and False are themselves, the rest is text."""
     with open(table, newline="", encoding="utf-8") as file:
-        return [{name: _value(word) for name, word in row.items()} for row in csv.DictReader(file)]
+        return Rows({name: _value(word) for name, word in row.items()} for row in csv.DictReader(file))
 
 
 def row_of(study, run):

@@ -16,19 +16,7 @@ from typing import Any, Callable, NamedTuple
 from scree import results
 from scree import variants as prm_files
 from scree.command import ROOT
-
-
-class Claim(NamedTuple):
-    """A sentence of the verdict, its numbers taken from the table, and whether the table bears it out.
-
-    With `quick` False it needs the whole study, and the short version does not check it. `worst`: it stands at the head of its section.
-    `tabled`: the table of the section says the same; the sentence stands on the page only if it does not hold.
-    """
-    text: str
-    holds: bool
-    quick: bool = True
-    worst: bool = False
-    tabled: bool = False
+from scree.studies.words import Text
 
 
 class Variant(NamedTuple):
@@ -77,7 +65,7 @@ def compiled(source, compiler, *flags):
 
 @dataclasses.dataclass(frozen=True)
 class Study:
-    """`measure(run)` returns the columns of a run; `verdict(rows)` the claims, from the rows as the table holds them.
+    """`measure(run)` returns the columns of a run; `verdict(rows)` the claims, from the Rows as the table holds them. text: its words.
 
     entries: common to all variants. reference: entries of a run made first, `run.reference` in the measure; quick_reference: that of the
     short version, if it is another one. quick(labels): whether a variant belongs to the short version. needs_end: a run that failed has
@@ -87,9 +75,7 @@ class Study:
     table(rows): the table of its section, the first row is the head; a map has one without it. compared(rows): lines of the table of experiments,
     (quantity, unit, measured, computed).
     """
-    title: str
-    question: str
-    advice: str
+    text: Text
     base: str
     variants: list
     measure: Callable

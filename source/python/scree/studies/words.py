@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The words of a study, from doc/studies/intro/NAME.md, and how they are filled with numbers.
+
+The file has the title, the question and the advice, behind "## Text" the text of the section, and behind "## Claims" a sentence for each claim,
+"- name: ...". In braces stand values as in f-strings: `{rows.largest[gain]:.2g}`. Of a list all are written, of {name: value} "value (name)", and
+`:.1f %` writes a part as a percentage, `:.1f mm` a length in m as a number of millimetres.
+"""
+
+import functools
+import re
+import string
+from typing import NamedTuple
+
+from scree.command import ROOT
+from scree.studies.rows import Span
+
+FOLDER = ROOT / "doc" / "studies" / "intro"
+FORM = re.compile(r"# (.+?)\n\n(.+?)\n\n(.+?)\n\n## Text\n\n(.+?)(?:\n\n## Claims\n\n(.+))?\n*\Z", re.DOTALL)
+ITEM = re.compile(r"^- ([^:]+): (.+?)(?=\n- |\Z)", re.MULTILINE | re.DOTALL)
+
+
+class Claim(NamedTuple):
+    """A sentence of the verdict, its numbers taken from the table, and whether the table bears it out.
+
+    With `quick` False it needs the whole study, and the short version does not check it. `worst`: it stands at the head of its section.
+    `tabled`: the table of the section says the same; the sentence stands on the page only if it does not hold.
+    """
+    text: str
+    holds: bool
+    quick: bool = True
+    worst: bool = False
+    tabled: bool = False
+
+
+class _Filling(string.Formatter):
+    def get_value(self, key, args, kwargs):
+        return args[0] if key == "" else super().get_value(key, args, kwargs)
+
+    def format_field(self, value, format_spec):
+        if isinstance(value, dict):
+            return ", ".join(f"{self.format_field(one, format_spec)} ({name})" for name, one in value.items())
+        if isinstance(value, list):
+            return ", ".join(self.format_field(one, format_spec) for one in value)
+        for unit, factor, shown in (("%", 100, " %"), ("mm", 1e3, "")):
+            if format_spec.endswith(" " + unit):
+                scaled = Span(factor * value.low, factor * value.high) if isinstance(value, Span) else factor * value
+                return format(scaled, format_spec.removesuffix(" " + unit)) + shown
+        return format(value, format_spec)
+
+
+filled = _Filling().format
+
+
+class Text:
+    """The words of the study of a module, `Text(__name__)`; its file is read when they are asked for."""
+
+    def __init__(self, module):
+        self.file = FOLDER / f"{module.rpartition('.')[2]}.md"
+
+    @functools.cached_property
+    def _parts(self):
+        parts = FORM.match(self.file.read_text(encoding="utf-8"))
+        if parts is None:
+            raise ValueError(f"{self.file}: write title, question, advice, ## Text and ## Claims, with empty lines between them")
+        return parts.groups()
+
+    @property
+    def title(self):
+        return " ".join(self._parts[0].split())
+
+    @property
+    def question(self):
+        return " ".join(self._parts[1].split())
+
+    @property
+    def advice(self):
+        return " ".join(self._parts[2].split())
+
+    @property
+    def introduction(self):
+        return self._parts[3]
+
+    @functools.cached_property
+    def sentences(self):
+        """Those of the claims, by name."""
+        return {name: " ".join(words.split()) for name, words in ITEM.findall(self._parts[4] or "")}
+
+    def claims(self, **shared):
+        """A function name, holds, values of the sentence -> Claim; `shared`: values that all sentences may use."""
+        def claim(name, holds, quick=True, worst=False, tabled=False, **values):
+            return Claim(filled(self.sentences[name], **shared, **values), bool(holds), quick, worst, tabled)
+        return claim
+
+
+def tabled(columns):
+    """A function rows -> table, the first row is the head. `columns`: {head: cell}; in a cell `{[h]:g}` stands for the column h."""
+    return lambda rows: [tuple(columns), *(tuple(filled(cell, row) for cell in columns.values()) for row in rows)]
