@@ -7,6 +7,7 @@ The file has the title, the question and the advice, behind "## Text" the text o
 """
 
 import functools
+import numbers
 import re
 import string
 from typing import NamedTuple
@@ -32,7 +33,7 @@ class Claim(NamedTuple):
     tabled: bool = False
 
 
-class _Filling(string.Formatter):
+class Filling(string.Formatter):
     def get_value(self, key, args, kwargs):
         return args[0] if key == "" else super().get_value(key, args, kwargs)
 
@@ -42,13 +43,13 @@ class _Filling(string.Formatter):
         if isinstance(value, list):
             return ", ".join(self.format_field(one, format_spec) for one in value)
         for unit, factor, shown in (("%", 100, " %"), ("mm", 1e3, "")):
-            if format_spec.endswith(" " + unit):
+            if format_spec.endswith(" " + unit) and isinstance(value, (Span, numbers.Real)):
                 scaled = Span(factor * value.low, factor * value.high) if isinstance(value, Span) else factor * value
                 return format(scaled, format_spec.removesuffix(" " + unit)) + shown
         return format(value, format_spec)
 
 
-filled = _Filling().format
+filled = Filling().format
 
 
 class Text:
