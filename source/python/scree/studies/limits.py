@@ -5,7 +5,8 @@ import numpy as np
 
 from scree.studies.study import transfer
 
-TRANSFERS = {"FLIP": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 1}, "AFLIP": transfer("AFLIP"), "TPIC": transfer("TPIC")}
+TRANSFERS = {"FLIP": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 1}, "AFLIP": transfer("AFLIP"),
+             "TPIC": transfer("TPIC")}
 TIP, MASS, HEIGHT = "front 99 %", "front 90 %", "height"
 
 
@@ -17,7 +18,8 @@ def fit(h, values, order):
 
 
 class Limit:
-    """The value of a column at h = 0, as the introduction of run_out defines it; `rows`: from the largest cells to the smallest."""
+    """The value of a column at h = 0, as the introduction of run_out defines it; `rows`: from the largest cells to the
+    smallest."""
 
     def __init__(self, rows, name):
         h, values = (np.array(rows.values[key]) for key in ("h", name))
@@ -56,10 +58,12 @@ def volume_below(coordinate, volume, dim):
 def depth(points, low, high):
     """Of the plane deposit between places, averaged, in the unit of the places."""
     left_of = volume_below(points.positions[:, 0], points.arrays["volume"].ravel(), 2)
-    return np.array([(left_of(end) - left_of(start)) / (end - start) for start, end in zip(np.atleast_1d(low), np.atleast_1d(high))])
+    return np.array([(left_of(end) - left_of(start)) / (end - start) for start,
+                     end in zip(np.atleast_1d(low), np.atleast_1d(high))])
 
 
 def front_of_depth(points, least, start, width, step):
-    """The last place, each `step` from `start`, around which the deposit, averaged over `width`, is deeper than `least`."""
+    """The last place, each `step` from `start`, around which the deposit, averaged over `width`, is deeper than
+    `least`."""
     places = np.arange(start, points.positions[:, 0].max() + width, step)
     return places[np.flatnonzero(depth(points, places, places + width) > least)[-1]] + width / 2

@@ -109,7 +109,7 @@ def ratios(rows, column="error"):
     return Lookup(lambda method: ratio(rows, method, column))
 
 
-def compared(rows):
+def beside_defaults(rows):
     """Values for sentences: `error` and `time` of a method over those of the defaults, `finest`: its error on its finest mesh."""
     return {"error": ratios(rows), "time": ratios(rows, "core-seconds"), "finest": Lookup(lambda method: at_finest(rows, method))}
 

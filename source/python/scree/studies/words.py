@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The words of a study, from doc/studies/intro/NAME.md, and how they are filled with numbers.
 
-The file has the title, the question and the advice, behind "## Text" the text of the section, and behind "## Claims" a sentence for each claim,
-"- name: ...". In braces stand values as in f-strings: `{rows.largest[gain]:.2g}`. Of a list all are written, of {name: value} "value (name)", and
-`:.1f %` writes a part as a percentage, `:.1f mm` a length in m as a number of millimetres.
+The file has the title, the question and the advice, behind "## Text" the text of the section, and behind "## Claims" a
+sentence for each claim, "- name: ...". In braces stand values as in f-strings: `{rows.largest[gain]:.2g}`. Of a list
+all are written, of {name: value} "value (name)", and `:.1f %` writes a part as a percentage, `:.1f mm` a length in m as
+a number of millimetres.
 """
 
 import functools
@@ -23,8 +24,9 @@ ITEM = re.compile(r"^- ([^:]+): (.+?)(?=\n- |\Z)", re.MULTILINE | re.DOTALL)
 class Claim(NamedTuple):
     """A sentence of the verdict, its numbers taken from the table, and whether the table bears it out.
 
-    With `quick` False it needs the whole study, and the short version does not check it. `worst`: it stands at the head of its section.
-    `tabled`: the table of the section says the same; the sentence stands on the page only if it does not hold.
+    With `quick` False it needs the whole study, and the short version does not check it. `worst`: it stands at the head
+    of its section. `tabled`: the table of the section says the same; the sentence stands on the page only if it does
+    not hold.
     """
     text: str
     holds: bool
@@ -53,16 +55,17 @@ filled = Filling().format
 
 
 class Text:
-    """The words of the study of a module, `Text(__name__)`; its file is read when they are asked for."""
+    """The words of a study; their file is read when they are asked for."""
 
-    def __init__(self, module):
-        self.file = FOLDER / f"{module.rpartition('.')[2]}.md"
+    def __init__(self, name):
+        self.file = FOLDER / f"{name}.md"
 
     @functools.cached_property
     def _parts(self):
         parts = FORM.match(self.file.read_text(encoding="utf-8"))
         if parts is None:
-            raise ValueError(f"{self.file}: write title, question, advice, ## Text and ## Claims, with empty lines between them")
+            raise ValueError(f"{self.file}: write title, question, advice, ## Text and ## Claims, with empty lines "
+                             "between them")
         return parts.groups()
 
     @property
@@ -86,13 +89,24 @@ class Text:
         """Those of the claims, by name."""
         return {name: " ".join(words.split()) for name, words in ITEM.findall(self._parts[4] or "")}
 
-    def claims(self, **shared):
-        """A function name, holds, values of the sentence -> Claim; `shared`: values that all sentences may use."""
-        def claim(name, holds, quick=True, worst=False, tabled=False, **values):
-            return Claim(filled(self.sentences[name], **shared, **values), bool(holds), quick, worst, tabled)
-        return claim
+
+class Claims:
+    """claim(name, holds, values of the sentence) -> Claim; `shared` gives more values that all sentences may use."""
+
+    def __init__(self, sentences, values=None):
+        self.sentences, self.values = sentences, values or {}
+
+    def shared(self, **values):
+        return Claims(self.sentences, {**self.values, **values})
+
+    def __call__(self, name, holds, quick=True, worst=False, tabled=False, **values):
+        return Claim(filled(self.sentences[name], **self.values, **values), bool(holds), quick, worst, tabled)
 
 
-def tabled(columns):
-    """A function rows -> table, the first row is the head. `columns`: {head: cell}; in a cell `{[h]:g}` stands for the column h."""
-    return lambda rows: [tuple(columns), *(tuple(filled(cell, row) for cell in columns.values()) for row in rows)]
+def tabled(columns, by=None):
+    """A function rows -> table, the first row is the head. `columns`: {head: cell}; in a cell `{[h]:g}` stands for the
+    column h. by: the column that sorts the rows."""
+    def table(rows):
+        rows = sorted(rows, key=lambda row: row[by]) if by else rows
+        return [tuple(columns), *(tuple(filled(cell, row) for cell in columns.values()) for row in rows)]
+    return table

@@ -7,13 +7,13 @@ from scree.pictures.tables import name_lines
 from scree.studies.charts import RunCurves
 from scree.studies.measures import mean_depth
 from scree.studies.study import Study, axis, product, reference_rows
-from scree.studies.words import Text, tabled
+from scree.studies.words import tabled
 
-TEXT = Text(__name__)
 BAR = 1.5e-3  # m
 WIDTH = 0.01  # m, over which the depth is taken
 RECOMMENDED, FIXED, FRICTION = "fixed, mu(I)", "fixed", "friction"
-BASES = {RECOMMENDED: ("fixed", 1.25e-3), FIXED: ("fixed", 0), FRICTION: ("friction 19.8", 0)}  # entry, grain diameter (m)
+# entry, grain diameter (m)
+BASES = {RECOMMENDED: ("fixed", 1.25e-3), FIXED: ("fixed", 0), FRICTION: ("friction 19.8", 0)}
 LAST = 0.4423  # m
 OVER, FRONT, TIP = "front over measured", "front (m)", "front 99.5 % (m)"
 SURFACE, LARGEST, FAILURE = "surface, rms (m)", "surface, largest (m)", "failure line, rms (m)"
@@ -50,27 +50,30 @@ def measure(run):
     front = places[np.flatnonzero(depth(points, places) > BAR)[-1]]
     return {SURFACE: np.sqrt(np.mean(error**2)), LARGEST: np.max(np.abs(error)), FRONT: front, OVER: front / LAST,
             TIP: x[int(0.995 * x.size)], FAILURE: np.sqrt(np.mean((heights - failure[:, 1])**2)),
-            "kinetic over released energy": run.statistics("Kinetic energy (J)")[-1] / np.ptp(run.statistics("Potential energy (J)"))}
+            "kinetic over released energy": run.statistics("Kinetic energy (J)")[-1]
+            / np.ptp(run.statistics("Potential energy (J)"))}
 
 
-def verdict(rows):
-    claims, claim = [], TEXT.claims(last=LAST)
+def verdict(rows, claim):
+    claims, claim = [], claim.shared(last=LAST)
     for base in BASES:
         group = rows.where(base=base)
         values = {"base": base, "group": group}
         claims += [
             claim("surface", group.largest[SURFACE] < 5e-3, tabled=True, **values),
-            claim("front", max(abs(front / LAST - 1) for front in group.values[FRONT]) < 0.05, quick=False, worst=base == RECOMMENDED,
-                  recommended=" (recommended)" if base == RECOMMENDED else "", off=[over - 1 for over in group.values[OVER]], **values),
+            claim("front", max(abs(front / LAST - 1) for front in group.values[FRONT]) < 0.05, quick=False,
+                  worst=base == RECOMMENDED, recommended=" (recommended)" if base == RECOMMENDED else "",
+                  off=[over - 1 for over in group.values[OVER]], **values),
             claim("failure", group.largest[FAILURE] < 0.01, quick=False, tabled=True, **values)]
     advances = {base: np.ptp(rows.where(base=base).values[FRONT]) for base in BASES}
-    return [*claims, claim("mesh", advances[RECOMMENDED] < 0.05 * LAST, quick=False, inertial=advances[RECOMMENDED], fixed=advances[FIXED],
-                           friction=advances[FRICTION])]
+    return [*claims, claim("mesh", advances[RECOMMENDED] < 0.05 * LAST, quick=False, inertial=advances[RECOMMENDED],
+                           fixed=advances[FIXED], friction=advances[FRICTION])]
 
 
-TABLE = tabled({"base": "{[base]}", "h (mm)": "{[h]:g mm}", "front (m)": "{[front (m)]:.3f}",
-                "front, 99.5 % of the mass (m)": "{[front 99.5 % (m)]:.3f}", "surface, RMS (mm)": "{[surface, rms (m)]:.1f mm}",
-                "failure line, RMS (mm)": "{[failure line, rms (m)]:.1f mm}"})
+table = tabled({"base": "{[base]}", "h (mm)": "{[h]:g mm}", "front (m)": "{[front (m)]:.3f}",
+                "front, 99.5 % of the mass (m)": "{[front 99.5 % (m)]:.3f}",
+                "surface, RMS (mm)": "{[surface, rms (m)]:.1f mm}",
+                "failure line, RMS (mm)": "{[failure line, rms (m)]:.1f mm}"}, by="base")
 
 
 def compared(rows):
@@ -89,7 +92,8 @@ def curves(run):
 def draw(figure, found, _):
     axes = figure.subplots()
     for name, label, style in (("surface: fixed, mu(I)", "surface, mu(I)\n(recommended)", "C0-"),
-                               ("surface: fixed", "surface, base fixed", "C1-"), ("surface: friction", "surface, base friction", "C3-"),
+                               ("surface: fixed", "surface, base fixed", "C1-"),
+                               ("surface: friction", "surface, base friction", "C3-"),
                                ("failure: fixed, mu(I)", "failure line,\nmu(I)", "C2-")):
         name += ", 2.5 mm"
         if name in found:
@@ -105,9 +109,10 @@ def draw(figure, found, _):
 
 
 STUDY = Study(
-    TEXT, "prm/columns/aluminium_bars.prm", measure=measure, verdict=verdict, chart=RunCurves(curves, draw, 3.6), compared=compared,
-    entries={"Output/Graphics": "points", "Output/Interval": "1"}, table=lambda rows: TABLE(sorted(rows, key=lambda row: row["base"])),
+    "prm/columns/aluminium_bars.prm", chart=RunCurves(curves, draw, 3.6),
+    entries={"Output/Graphics": "points", "Output/Interval": "1"},
     variants=product(axis("h", "Mesh/Cell size", [0.01, 0.005, 0.0025]),
-                     axis("base", lambda base: {"Boundaries/Bottom": BASES[base][0], "Soil/Mohr-Coulomb/Grain diameter": BASES[base][1]},
+                     axis("base", lambda base: {"Boundaries/Bottom": BASES[base][0],
+                                                "Soil/Mohr-Coulomb/Grain diameter": BASES[base][1]},
                           list(BASES))),
     quick=lambda labels: labels["h"] == 0.01)

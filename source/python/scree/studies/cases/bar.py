@@ -6,11 +6,10 @@ import math
 import numpy as np
 
 from scree.studies.charts import WorkPrecision
-from scree.studies.precision import DEFAULTS, at_finest, compared, costs, failed, methods, order, ratio, table, variants
+from scree.studies.precision import (DEFAULTS, at_finest, beside_defaults, costs, failed, methods, order, ratio, table,
+                                     variants)
 from scree.studies.study import Study, transfer
-from scree.studies.words import Text
 
-TEXT = Text(__name__)
 SPEED, MODULUS, AMPLITUDE = math.sqrt(10.), 1e4, 1e-5  # of the wave, m/s; Pa; m/s
 TIME = 4.25 / SPEED  # s
 METHODS = methods("linear", "PIC rate 5", {"TPIC": transfer("TPIC")}, "2 x 2 points", "3 x 3 points",
@@ -28,7 +27,8 @@ def relative(computed, exact):
 def errors(run, velocity, stress, velocity_on_time):
     """The columns of relative errors; runs with an error above 1 have diverged."""
     error = math.sqrt((velocity**2 + stress**2) / 2)
-    return {"cells": round(1 / run.labels["h"]), "error": error if error < 1 else math.nan, "error of velocity": velocity,
+    return {"cells": round(1 / run.labels["h"]), "error": error if error < 1 else math.nan,
+            "error of velocity": velocity,
             "error of stress": stress, "error of velocity, taken as on time": velocity_on_time}
 
 
@@ -42,11 +42,11 @@ def measure(run):
     return errors(run, velocity, stress, relative(computed, shape * math.cos(omega * TIME)))
 
 
-def verdict(rows):
+def verdict(rows, claim):
     few, small = ratio(rows, "2 x 2 points"), ratio(rows, "Courant number 0.15")
     diverged = failed(rows, "Courant number 0.9")
     linear, splines = (at_finest(rows, method, "error of stress") for method in ("linear", DEFAULTS))
-    claim = TEXT.claims(**compared(rows))
+    claim = claim.shared(**beside_defaults(rows))
     return [
         claim("transfer", ratio(rows, "TPIC") < 0.5 and 0.9 < ratio(rows, "PIC rate 5") < 1.1),
         claim("order", order(rows) > 1.7 and 0.9 < small < 1.2, order=order(rows), change=small - 1),
@@ -57,10 +57,10 @@ def verdict(rows):
 
 
 STUDY = Study(
-    TEXT, "prm/dynamics/vibrating_bar.prm",
+    "prm/dynamics/vibrating_bar.prm",
     entries={"Soil/Initial velocity": f"{AMPLITUDE:g}*sin(pi*x); 0", "Time step/Maximum time step": 1, "End time": TIME,
              "Output/Interval": TIME, "Output/Statistics interval": 0, "Output/Graphics": "points"},
     variants=variants(METHODS, mesh, [1 / 16, 1 / 32, 1 / 64, 1 / 128, 1 / 256]), default={"method": DEFAULTS},
-    quick=lambda labels: labels["h"] > 0.03, measure=measure, verdict=verdict, table=table,
+    table=table, quick=lambda labels: labels["h"] > 0.03,
     chart=WorkPrecision({DEFAULTS: "defaults (FLIP)", "TPIC": "TPIC\n(recommended)", "linear": "linear"},
                         "error of velocity and stress against\nthe exact solution (-)", "cells", ""))

@@ -6,9 +6,8 @@ from scree import results
 from scree.pictures import fields, plane
 from scree.studies.charts import Pictures
 from scree.studies.study import Study, axis, product
-from scree.studies.words import Text, filled
+from scree.studies.words import filled
 
-TEXT = Text(__name__)
 VOLUMES = {"dense": 1.629, "loose": 1.736}
 TITLES = {"none": "no stabilisation", "standard": "F-bar", "modified": "modified F-bar"}
 SHOWN = 0.4  # s
@@ -28,7 +27,8 @@ def measure(run):
                                                              "Numerical dissipation (J)"))
     gained = np.maximum.accumulate(dissipation) - dissipation
     released = np.maximum(potential[0] - potential, 1e-9)
-    columns = {DOUBLED: first_time(time, largest > 2 * largest[0]), TENTH: first_time(time, (gained > 0.1 * released) & (time > 0.1))}
+    columns = {DOUBLED: first_time(time, largest > 2 * largest[0]),
+               TENTH: first_time(time, (gained > 0.1 * released) & (time > 0.1))}
     for name, chosen in ((EARLY, time <= SHOWN * (1 + 1e-9)), (END, time >= 0)):
         columns.update({"oscillation" + name: np.trapz(oscillation[chosen], time[chosen]) / np.ptp(time[chosen]),
                         "largest effective stress (kPa)" + name: 1e-3 * np.max(largest[chosen]),
@@ -38,9 +38,11 @@ def measure(run):
     return columns
 
 
-def verdict(rows):
+def verdict(rows, claim):
     of = {f_bar: rows.where({"F-bar": f_bar}) for f_bar in TITLES}
-    oscillation, largest, gained = (name + EARLY for name in ("oscillation", "largest effective stress (kPa)", "energy gained over released"))
+    oscillation, largest, gained = (name + EARLY
+                                    for name in ("oscillation", "largest effective stress (kPa)",
+                                                 "energy gained over released"))
 
     def below(column, f_bar):
         """Whether a column is smaller with modified F-bar in each slope."""
@@ -54,8 +56,8 @@ def verdict(rows):
         return of[f_bar].where(soil="dense").from_coarse().values[column]
 
     smooth, rough = dense("modified", oscillation), dense("standard", oscillation)
-    claim = TEXT.claims(shown=SHOWN, slopes=[f"{row['soil']} {row['h']:g} m" for row in of["modified"]],
-                        largest={f_bar: found.values[largest] for f_bar, found in of.items()})
+    claim = claim.shared(shown=SHOWN, slopes=[f"{row['soil']} {row['h']:g} m" for row in of["modified"]],
+                         largest={f_bar: found.values[largest] for f_bar, found in of.items()})
     claims = [
         claim("oscillation", below(oscillation, "none") and below(oscillation, "standard")),
         claim("largest", below(largest, "standard"), doubled={f_bar: times(f_bar, DOUBLED) for f_bar in TITLES}),
@@ -63,7 +65,8 @@ def verdict(rows):
               and np.all(np.array(of["modified"].values[gained]) < 0.005), quick=False, worst=True,
               gained=[f"{part:.0%}" for part in of["standard"].values[gained]], tenth=times("standard", TENTH),
               most=np.max(of["modified"].values[gained])),
-        claim("mesh", np.all(np.diff(smooth) < 0) and rough[-1] > rough[0], quick=False, coarse=smooth[0], fine=smooth[-1])]
+        claim("mesh", np.all(np.diff(smooth) < 0) and rough[-1] > rough[0], quick=False, coarse=smooth[0],
+              fine=smooth[-1])]
     late = rows.where(lambda row: row["end"] > SHOWN)
     if late:
         found = {name: " / ".join(filled(form, late.where({"F-bar": f_bar}).values[name + END]) for f_bar in TITLES)
@@ -88,9 +91,11 @@ def draw(figure, runs):
     for run in runs:
         box = results.read_box(run.folder)
         plot = plots[lines.index((run.labels["soil"], run.labels["h"])), list(TITLES).index(run.labels["F-bar"])]
-        drawn = plane.draw_points(plot, run.points(SHOWN), box._replace(upper=np.array([4.4, 2.1])), FIELD, (0., LARGEST))
+        drawn = plane.draw_points(plot, run.points(SHOWN), box._replace(upper=np.array([4.4, 2.1])), FIELD,
+                                  (0., LARGEST))
         plot.label_outer()
-        plot.text(0.97, 0.9, f"{run.labels['soil']}, {run.labels['h']:g} m", transform=plot.transAxes, ha="right", va="top", fontsize=9)
+        plot.text(0.97, 0.9, f"{run.labels['soil']}, {run.labels['h']:g} m", transform=plot.transAxes, ha="right",
+                  va="top", fontsize=9)
     for plot, title in zip(plots[0], TITLES.values()):
         plot.set_title(title, fontsize="medium")
     figure.colorbar(drawn, ax=plots, label=f"{fields.field_label(FIELD)}, t = {SHOWN:g} s", extend="max", aspect=40)
@@ -103,7 +108,7 @@ def slopes(cell_size, soils, end):
 
 
 STUDY = Study(
-    TEXT, "prm/slopes/slope_dense.prm", needs_end=False,
+    "prm/slopes/slope_dense.prm", needs_end=False,
     entries={"Output/Graphics": "points", "Output/Interval": 0.1, "Output/Statistics interval": 0.02},
-    variants=slopes(0.1, ["dense"], SHOWN) + slopes(0.05, ["dense"], 1) + slopes(0.05, ["loose"], SHOWN) + slopes(0.025, ["dense"], SHOWN),
-    quick=lambda labels: labels["h"] == 0.1, measure=measure, verdict=verdict, table=table, chart=Pictures(draw, 5.5))
+    variants=slopes(0.1, ["dense"], SHOWN) + slopes(0.05, ["dense"], 1) + slopes(0.05, ["loose"], SHOWN)
+    + slopes(0.025, ["dense"], SHOWN), quick=lambda labels: labels["h"] == 0.1, chart=Pictures(draw, 5.5))

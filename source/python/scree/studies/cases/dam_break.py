@@ -9,11 +9,9 @@ from scree.studies import precision
 from scree.studies.cases import dry_slope
 from scree.studies.charts import WorkPrecision
 from scree.studies.measures import lost_energy
-from scree.studies.precision import DEFAULTS, LimitFit, at_finest, compared, costs, curve, methods, ratios
+from scree.studies.precision import DEFAULTS, LimitFit, at_finest, beside_defaults, costs, curve, methods, ratios
 from scree.studies.study import Study
-from scree.studies.words import Text
 
-TEXT = Text(__name__)
 STEP = 0.04  # s/m: longest step over cell size
 REFERENCE = 1 / 60  # m, cells of the reference
 STEPS = {"half the step": 0.5, "twice the step": 2.}
@@ -47,32 +45,36 @@ def measure(run):
             "preconditioners a step": run.statistics("Preconditioners built")[-1] / run.statistics("Step")[-1]}
 
 
-def verdict(rows):
+def verdict(rows, claim):
     fit, raw = LimitFit(rows, REFERENCE), rows
     rows = fit.against_limit(rows)
     error, iterations, found = ratios(rows), ratios(rows, "CG iterations"), costs(rows)
     coarse, fine = max(curve(rows), default=math.nan), min(curve(rows), default=math.nan)
     volumes = [at_finest(rows, method, "largest volume error") for method in ("3 x 3 points", DEFAULTS)]
-    claim = TEXT.claims(**compared(rows))
+    claim = claim.shared(**beside_defaults(rows))
     return [
         claim("order", fit.found and fit.order > 1 and fit.lack(fine) < 0.005 and error["half the step"] > 0.9
-              and error["twice the step"] > 1.2, quick=False, fit=fit, coarse=coarse, fine=fine, lack_of_coarse=fit.lack(coarse),
-              lack_of_fine=fit.lack(fine), distance=at_finest(raw, DEFAULTS)),
+              and error["twice the step"] > 1.2, quick=False, fit=fit, coarse=coarse, fine=fine,
+              lack_of_coarse=fit.lack(coarse), lack_of_fine=fit.lack(fine), distance=at_finest(raw, DEFAULTS)),
         claim("tolerance", abs(error["tolerance 1e-6"] - 1) < 0.005 and iterations["tolerance 1e-6"] > 1.15
-              and abs(error["tolerance 1e-2"] - 1) < 0.02 and iterations["tolerance 1e-2"] < 0.75, iterations=iterations),
-        claim("points", error["3 x 3 points"] < 1.1 and error["2 x 2 points"] > 1, volume=100 * volumes[0], volume_of_defaults=volumes[1]),
+              and abs(error["tolerance 1e-2"] - 1) < 0.02 and iterations["tolerance 1e-2"] < 0.75,
+              iterations=iterations),
+        claim("points", error["3 x 3 points"] < 1.1 and error["2 x 2 points"] > 1, volume=100 * volumes[0],
+              volume_of_defaults=volumes[1]),
         claim("transfer", error["FLIP"] < 1.5 and error["linear"] < 1.1),
         claim("volume correction", 0.85 < error["no volume correction"] < 1.2),
-        claim("cost", found["tolerance 1e-6"] > 0.9 and found["2 x 2 points"] > 1.5 and found["half the step"] > 1.5, quick=False)]
+        claim("cost", found["tolerance 1e-6"] > 0.9 and found["2 x 2 points"] > 1.5 and found["half the step"] > 1.5,
+              quick=False)]
 
 
 STUDY = Study(
-    TEXT, "prm/water/dam_break.prm",
+    "prm/water/dam_break.prm",
     entries={"End time": 0.68, "Output/Interval": 0.68, "Output/Statistics interval": 0.04, "Output/Graphics": "none"},
     variants=variants(METHODS, [1 / 10, 1 / 20]) + variants((DEFAULTS, "2 x 2 points", "3 x 3 points"), [1 / 30]),
-    reference=mesh(REFERENCE), quick_reference={**mesh(1 / 30), "Water/Points per cell": 3}, default={"method": DEFAULTS},
-    quick=lambda labels: labels["h"] > 0.09, measure=measure, verdict=verdict,
+    reference=mesh(REFERENCE), quick_reference={**mesh(1 / 30), "Water/Points per cell": 3},
+    default={"method": DEFAULTS}, quick=lambda labels: labels["h"] > 0.09,
     table=lambda rows: precision.table(LimitFit(rows, REFERENCE).against_limit(rows)),
-    chart=WorkPrecision({DEFAULTS: "defaults", "3 x 3 points": "3 x 3 points\n(recommended)", "linear": "linear (cheapest)",
+    chart=WorkPrecision({DEFAULTS: "defaults", "3 x 3 points": "3 x 3 points\n(recommended)",
+                         "linear": "linear (cheapest)",
                          "half the step": "half the time step", "2 x 2 points": "2 x 2 points (worst)"},
                         "difference from the run with h = 0.017 m (-)"))

@@ -9,9 +9,8 @@ from scree import closed_forms
 from scree.studies.charts import RunCurves
 from scree.studies.measures import mean_depth
 from scree.studies.study import Study, axis, product
-from scree.studies.words import Text, filled, tabled
+from scree.studies.words import filled, tabled
 
-TEXT = Text(__name__)
 LAYER, SLOPE, ORIGIN = 0.2, math.radians(20), np.array([5, 3.35])  # m, -, m
 TIMES = (0.4, 0.8, 1.2)  # s
 ERRORS, BEHIND = [f"error at {time:g} s" for time in TIMES], "behind at a tenth"
@@ -38,23 +37,26 @@ def measure(run):
     errors = [np.sqrt(np.mean((depth(run, time, flow.place(part, time)) - flow.depth(part))**2)) for time in TIMES]
     parts = np.linspace(-1, 2, 3001)
     tenth = parts[np.flatnonzero(depth(run, TIMES[-1], flow.place(parts, TIMES[-1])) >= 0.1)[-1]]
-    return {**dict(zip(ERRORS, errors)), BEHIND: 2 - 3 * math.sqrt(0.1) - tenth, "lost": run.statistics("Points lost")[-1]}
+    return {**dict(zip(ERRORS, errors)), BEHIND: 2 - 3 * math.sqrt(0.1) - tenth,
+            "lost": run.statistics("Points lost")[-1]}
 
 
-def verdict(rows):
-    claims, claim = [], TEXT.claims(times=list(TIMES))
+def verdict(rows, claim):
+    claims, claim = [], claim.shared(times=list(TIMES))
     for bed, (name, start) in WORDS.items():
         group = rows.where(bed=bed)
         errors = np.array([[row[error] for error in ERRORS] for row in group])
         sizes = "; ".join(filled("cells of {:g} m: {:.3f}", row["h"], list(of)) for row, of in zip(group, errors))
-        claims += [claim("depth", errors[:, -1].max() < BOUND[bed] and np.all(np.diff(errors) < 0), tabled=True, bed=name, sizes=sizes),
-                   claim("tip", max(map(abs, group.values[BEHIND])) < 0.1, worst=bed == FRICTION, tabled=True, bed=start,
-                         behind={f"h = {row['h']:g} m": row[BEHIND] for row in group})]
+        claims += [claim("depth", errors[:, -1].max() < BOUND[bed] and np.all(np.diff(errors) < 0), tabled=True,
+                         bed=name, sizes=sizes),
+                   claim("tip", max(map(abs, group.values[BEHIND])) < 0.1, worst=bed == FRICTION, tabled=True,
+                         bed=start, behind={f"h = {row['h']:g} m": row[BEHIND] for row in group})]
     return claims
 
 
-TABLE = tabled({"bed": "{[bed]}", "h (m)": "{[h]:g}", **{f"error of the depth at {time:g} s": f"{{[error at {time:g} s]:.3f}}" for time in TIMES},
-                "behind at 1.2 s, depth 0.1, over c t": "{[behind at a tenth]:+.3f}"})
+table = tabled({"bed": "{[bed]}", "h (m)": "{[h]:g}",
+                **{f"error of the depth at {time:g} s": f"{{[error at {time:g} s]:.3f}}" for time in TIMES},
+                "behind at 1.2 s, depth 0.1, over c t": "{[behind at a tenth]:+.3f}"}, by="bed")
 
 
 def curves(run):
@@ -80,7 +82,7 @@ def draw(figure, found, _):
 
 
 STUDY = Study(
-    TEXT, "prm/bed/granular_dam_break.prm", measure=measure, verdict=verdict, chart=RunCurves(curves, draw, 5.),
+    "prm/bed/granular_dam_break.prm", chart=RunCurves(curves, draw, 5.),
     entries={"Output/Graphics": "points", "Output/Interval": 0.4},
     variants=product(axis("h", "Mesh/Cell size", [0.04, 0.02]), axis("bed", BEDS.get, list(BEDS))),
-    quick=lambda labels: labels["h"] == 0.04, table=lambda rows: TABLE(sorted(rows, key=lambda row: row["bed"])))
+    quick=lambda labels: labels["h"] == 0.04)

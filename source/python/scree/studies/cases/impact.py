@@ -6,9 +6,7 @@ from scree.studies.charts import StabilityMap
 from scree.studies.measures import BOUNDS, classify, roughness
 from scree.studies.rows import Span
 from scree.studies.study import Study, axis, product
-from scree.studies.words import Text
 
-TEXT = Text(__name__)
 HEAD = 1000 * 9.81 * 0.5  # Pa
 
 
@@ -27,7 +25,8 @@ def measure(run):
     mass = -momentum[0] / speed_at_start
     impulse = 1 + np.interp(later, run.statistics("Time (s)"), momentum) / (mass * speed_at_touch)
     return {**classify(run, {"oscillation of p": rough}), "impulse": impulse,
-            "peak p, kPa": 1e-3 * max(run.statistics("Largest p (Pa)")), "volume error": max(run.statistics("Volume error (-)"))}
+            "peak p, kPa": 1e-3 * max(run.statistics("Largest p (Pa)")),
+            "volume error": max(run.statistics("Volume error (-)"))}
 
 
 def pairs(rows, quantity):
@@ -36,28 +35,30 @@ def pairs(rows, quantity):
     return [(row[quantity], fine[row["k"], row["v"]]) for row in rows.where(h=0.1)]
 
 
-def verdict(rows):
+def verdict(rows, claim):
     ended, spray = rows.where(ended=True), rows.where(state="J out of bounds")
     slower = rows.where(lambda row: row not in spray and row["v"] < rows.largest["v"])
     calm = slower.largest["v"] if slower else 0.
     changes = [abs(fine - coarse) for coarse, fine in pairs(rows, "impulse")]
     ratios = Span.of(fine / coarse for coarse, fine in pairs(rows, "peak p, kPa"))
-    claim = TEXT.claims(rows=rows, ended=ended, spray=spray, bounds=BOUNDS)
+    claim = claim.shared(rows=rows, ended=ended, spray=spray, bounds=BOUNDS)
     return [
-        claim("oscillation", rows.largest["oscillation of p"] < 1.2, mean=sum(rows.values["oscillation of p"]) / rows.n),
-        claim("impulse", max(changes) < 0.1 and ratios.high > 1.5, quick=False, largest=max(changes), mean=sum(changes) / len(changes),
-              ratios=ratios),
+        claim("oscillation", rows.largest["oscillation of p"] < 1.2,
+              mean=sum(rows.values["oscillation of p"]) / rows.n),
+        claim("impulse", max(changes) < 0.1 and ratios.high > 1.5, quick=False, largest=max(changes),
+              mean=sum(changes) / len(changes), ratios=ratios),
         claim("spray", spray.smallest["v"] > calm, quick=False, calm=calm) if spray else claim("no spray", True),
         claim("end", ended.n == rows.n and rows.largest["gain"] < BOUNDS["gain"])]
 
 
 STUDY = Study(
-    TEXT, "prm/columns/column_saturated.prm", needs_end=False,
+    "prm/columns/column_saturated.prm", needs_end=False,
     entries={"Soil/Region": "x > 0.5 && x < 1.5 && y > 0.1 && y < 0.6", "Soil/Initial state/Type": "none",
              "Soil/Initial state/K0": "auto", "Water/Initial pressure": "none", "Mesh/Upper corner": "2, 1.5",
-             "Soil/Points per cell": 3, "Water/Points per cell": 3, "Output/Interval": 0.1, "Output/Statistics interval": 0.002},
-    variants=product(axis("h", "Mesh/Cell size", [0.1, 0.05]), axis("k", "Water/Hydraulic conductivity", [1e-1, 1e-2, 1e-3, 1e-5]),
+             "Soil/Points per cell": 3, "Water/Points per cell": 3, "Output/Interval": 0.1,
+             "Output/Statistics interval": 0.002},
+    variants=product(axis("h", "Mesh/Cell size", [0.1, 0.05]),
+                     axis("k", "Water/Hydraulic conductivity", [1e-1, 1e-2, 1e-3, 1e-5]),
                      axis("v", speed, [0.5, 1., 2., 5., 10.])),
-    quick=lambda labels: labels["h"] == 0.1 and labels["k"] in (1e-1, 1e-5) and labels["v"] in (1., 10.),
-    measure=measure, verdict=verdict, default={},
+    quick=lambda labels: labels["h"] == 0.1 and labels["k"] in (1e-1, 1e-5) and labels["v"] in (1., 10.), default={},
     chart=StabilityMap("v", "k", panels=["h"], xlabel="speed (m/s); h in m", ylabel="k (m/s)"))

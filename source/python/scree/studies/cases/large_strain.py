@@ -8,11 +8,10 @@ import numpy as np
 
 from scree import closed_forms
 from scree.studies.charts import WorkPrecision
-from scree.studies.precision import DEFAULTS, at_finest, compared, costs, failed, methods, order, ratios, table, variants
+from scree.studies.precision import (DEFAULTS, at_finest, beside_defaults, costs, failed, methods, order, ratios, table,
+                                     variants)
 from scree.studies.study import Study
-from scree.studies.words import Text
 
-TEXT = Text(__name__)
 MUD = closed_forms.Mud(1., closed_forms.oedometric_modulus(2e4, 0.2), 0.5, 1e-2)
 TIMES = [MUD.time(factor) for factor in (0.25, 0.5, 1.)]
 METHODS = methods("linear", "standard F-bar", "modified F-bar", "2 x 2 points", "3 x 3 points", "6 x 6 points", "FLIP",
@@ -49,11 +48,11 @@ def measure(run):
     return {"error": math.sqrt(np.mean(np.square(errors))), "error of p": errors[0], "error of heights": errors[1]}
 
 
-def verdict(rows):
+def verdict(rows, claim):
     error, best, six = ratios(rows), at_finest(rows, DEFAULTS), "6 x 6 points"
     stops = ", ".join(f"{h:.2g}" for h in failed(rows, "linear"))
     stops = f", and the run stops or loses soil at h = {stops} m" if stops else ""
-    claim = TEXT.claims(**compared(rows))
+    claim = claim.shared(**beside_defaults(rows))
     return [
         claim("basis", not error["linear"] < 5 and not failed(rows, DEFAULTS), stops=stops),
         claim("points", error["3 x 3 points"] > 1.2 and error["2 x 2 points"] > 2, worst=True),
@@ -65,11 +64,11 @@ def verdict(rows):
 
 
 STUDY = Study(
-    TEXT, "prm/consolidation/large_strain_consolidation.prm",
+    "prm/consolidation/large_strain_consolidation.prm",
     entries={"End time": TIMES[-1], "Output/Interval": TIMES[0], "Output/Graphics": "points"},
-    variants=variants(METHODS, mesh, [1 / 10, 1 / 20, 1 / 40]), default={"method": DEFAULTS},
-    quick=lambda labels: labels["h"] > 0.03 and labels["method"] in (DEFAULTS, "linear", "modified F-bar", "2 x 2 points", "3 x 3 points"),
-    measure=measure, verdict=verdict, table=table,
-    chart=WorkPrecision({DEFAULTS: "defaults\n(recommended)", "6 x 6 points": "6 x 6 points", "3 x 3 points": "3 x 3 points",
-                         "2 x 2 points": "2 x 2 points", "linear": "linear (worst)"},
+    variants=variants(METHODS, mesh, [1 / 10, 1 / 20, 1 / 40]), default={"method": DEFAULTS}, table=table,
+    quick=lambda labels: labels["h"] > 0.03
+    and labels["method"] in (DEFAULTS, "linear", "modified F-bar", "2 x 2 points", "3 x 3 points"),
+    chart=WorkPrecision({DEFAULTS: "defaults\n(recommended)", "6 x 6 points": "6 x 6 points",
+                         "3 x 3 points": "3 x 3 points", "2 x 2 points": "2 x 2 points", "linear": "linear (worst)"},
                         "RMS error of p and heights against\nfinite differences (-)"))

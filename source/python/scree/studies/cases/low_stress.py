@@ -7,11 +7,10 @@ import numpy as np
 from scree.studies.charts import StabilityMap
 from scree.studies.measures import classify, mean_oscillation
 from scree.studies.study import Study, Variant
-from scree.studies.words import Text
 
-TEXT = Text(__name__)
 CASES = {("Nor-Sand", "dry"): "columns/column_loose", ("Mohr-Coulomb", "dry"): "columns/mohr_coulomb_collapse",
-         ("Nor-Sand", "saturated"): "slopes/slope_saturated_loose", ("Mohr-Coulomb", "saturated"): "columns/column_saturated"}
+         ("Nor-Sand", "saturated"): "slopes/slope_saturated_loose",
+         ("Mohr-Coulomb", "saturated"): "columns/column_saturated"}
 
 
 def variant(law, pores, part, height):
@@ -23,7 +22,8 @@ def variant(law, pores, part, height):
                "Output/Interval": end / 2, "Output/Statistics interval": end / 50}
     if pores == "saturated":
         entries.update({"Water/Points per cell": 2, "Time step/Maximum time step": end / 400})
-    return Variant({"soil": f"{law}, {pores}", "gravity": part, "height": height}, entries, f"prm/{CASES[law, pores]}.prm")
+    return Variant({"soil": f"{law}, {pores}", "gravity": part, "height": height}, entries,
+                   f"prm/{CASES[law, pores]}.prm")
 
 
 def measure(run):
@@ -31,10 +31,11 @@ def measure(run):
     suction = -min(run.columns.get("Smallest p (Pa)", [0.]))  # dry soil has none
     return {**classify(run, {"oscillation of p'": mean_oscillation(run, "Stress oscillation (-)")}),
             "front/height": run.statistics("Front 99 % (m)")[-1] / height,
-            "suction/weight": suction / (1000 * 9.81 * run.labels["gravity"] * height), "unresolved": run.statistics("Unresolved")[-1]}
+            "suction/weight": suction / (1000 * 9.81 * run.labels["gravity"] * height),
+            "unresolved": run.statistics("Unresolved")[-1]}
 
 
-def verdict(rows):
+def verdict(rows, claim):
     ended = rows.where(ended=True)
     calm = rows.where(lambda row: row["state"] in ("stable", "oscillating"))
     failed = rows.where(lambda row: row not in calm)
@@ -42,7 +43,7 @@ def verdict(rows):
     smallest, largest = (np.mean([row["oscillation of p'"] for row, scale in zip(rows, scales) if scale == chosen])
                          for chosen in (min(scales), max(scales)))
     wet = failed.where(soil="Mohr-Coulomb, saturated", state="energy gain")
-    claim = TEXT.claims(rows=rows, ended=ended, calm=calm, failed=failed, smallest=smallest, largest=largest)
+    claim = claim.shared(rows=rows, ended=ended, calm=calm, failed=failed, smallest=smallest, largest=largest)
     return [
         *([claim("gain", wet.n == failed.n, quick=False)] if failed else []),
         claim("oscillation", smallest > largest),
@@ -51,8 +52,7 @@ def verdict(rows):
 
 
 STUDY = Study(
-    TEXT, "prm/columns/column_loose.prm", needs_end=False, entries={"Soil/Points per cell": 2},
+    "prm/columns/column_loose.prm", needs_end=False, entries={"Soil/Points per cell": 2},
     variants=[variant(*case, part, height) for case in CASES for part in (0.01, 1.) for height in (0.02, 0.1, 0.5, 2.)],
-    quick=lambda labels: labels["gravity"] == 1. and labels["height"] in (0.1, 2.),
-    measure=measure, verdict=verdict, default={},
+    quick=lambda labels: labels["gravity"] == 1. and labels["height"] in (0.1, 2.), default={},
     chart=StabilityMap("height", "gravity", panels=["soil"], xlabel="height (m)", ylabel="gravity over 9.81 m/s²"))

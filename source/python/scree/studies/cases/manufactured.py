@@ -7,14 +7,12 @@ import numpy as np
 
 from scree.studies.cases.bar import errors, relative
 from scree.studies.charts import WorkPrecision
-from scree.studies.precision import DEFAULTS, at_finest, compared, curve, methods, order, ratios, table, variants
+from scree.studies.precision import DEFAULTS, at_finest, beside_defaults, curve, methods, order, ratios, table, variants
 from scree.studies.study import Study, transfer
-from scree.studies.words import Text
 
-TEXT = Text(__name__)
 AMPLITUDE, MODULUS, TIME = 0.1, 1e4, 0.6  # m, Pa, s
-METHODS = methods("linear", "PIC rate 0", "PIC rate 5", {"TPIC": transfer("TPIC")}, "2 x 2 points", "3 x 3 points", "6 x 6 points",
-                  "Courant number 0.3", "Courant number 0.9", "modified F-bar", without="Water")
+METHODS = methods("linear", "PIC rate 0", "PIC rate 5", {"TPIC": transfer("TPIC")}, "2 x 2 points", "3 x 3 points",
+                  "6 x 6 points", "Courant number 0.3", "Courant number 0.9", "modified F-bar", without="Water")
 DENSER = {"points as fine as cells^2": {}, "TPIC, points as fine as cells^2": METHODS["TPIC"]}
 
 
@@ -24,7 +22,8 @@ def denser_points(h):
 
 
 def body_force(x):
-    """Dv/Dt + E/(rho_0 g) g' (1 + ln g) along the axis `x` ("x" or "y"), of X = x - A sin(pi x) sin(pi t) and g = dX/dx."""
+    """Dv/Dt + E/(rho_0 g) g' (1 + ln g) along the axis `x` ("x" or "y"), of X = x - A sin(pi x) sin(pi t) and g =
+    dX/dx."""
     sine, cosine = f"(0.1*sin(pi*{x}))", f"(0.1*pi*cos(pi*{x}))"
     g, g_x, g_t = f"(1-{cosine}*sin(pi*t))", f"(pi*pi*{sine}*sin(pi*t))", f"(-pi*{cosine}*cos(pi*t))"
     n, n_x, n_t = f"(pi*{sine}*cos(pi*t))", f"(pi*{cosine}*cos(pi*t))", f"(-pi*pi*{sine}*sin(pi*t))"
@@ -47,12 +46,12 @@ def measure(run):
     return errors(run, velocity, relative(points.arrays["stress"][:, 0], stress), relative(computed, exact(x, TIME)))
 
 
-def verdict(rows):
+def verdict(rows, claim):
     error, finest = ratios(rows), {name: at_finest(rows, name) for name in METHODS}
     *_, middle, fine = (row["error"] for row in curve(rows).values())
     few = [row["error"] for row in curve(rows, "2 x 2 points").values()]
     denser = order(rows, "points as fine as cells^2")
-    claim = TEXT.claims(**compared(rows), fine=fine)
+    claim = claim.shared(**beside_defaults(rows), fine=fine)
     return [
         claim("convergence", fine > 0.7 * middle and denser > 1, quick=False, middle=middle, order=denser),
         claim("basis", error["linear"] > 5),
@@ -65,15 +64,16 @@ def verdict(rows):
 
 
 STUDY = Study(
-    TEXT, "prm/dynamics/vibrating_bar.prm",
+    "prm/dynamics/vibrating_bar.prm",
     entries={"End time": TIME, "Output/Interval": TIME, "Output/Statistics interval": 0, "Output/Graphics": "points",
              "Mesh/Upper corner": "1, 1", "Body force": f"{body_force('x')}; {body_force('y')}",
              "Soil/Initial velocity": "0.1*pi*sin(pi*x); 0.1*pi*sin(pi*y)", "Boundaries/Left": "free slip",
              "Boundaries/Right": "free slip", "Transfer/PIC rate": "auto", "Time step/Maximum time step": 1},
-    variants=variants(METHODS, "Mesh/Cell size", [1 / 8, 1 / 16, 1 / 32, 1 / 64]) + variants(DENSER, denser_points, [1 / 8, 1 / 16, 1 / 32]),
-    default={"method": DEFAULTS},
-    quick=lambda labels: labels["h"] > 0.05 and labels["method"] in (DEFAULTS, "linear", "2 x 2 points", "modified F-bar"),
-    measure=measure, verdict=verdict, table=lambda rows: [line[:3] for line in table(rows)],
-    chart=WorkPrecision({DEFAULTS: "defaults", "TPIC, points as fine as cells^2": "TPIC, spacing h²\n(best)", "TPIC": "TPIC",
-                         "2 x 2 points": "2 x 2 points", "linear": "linear (worst)"},
+    variants=variants(METHODS, "Mesh/Cell size", [1 / 8, 1 / 16, 1 / 32, 1 / 64])
+    + variants(DENSER, denser_points, [1 / 8, 1 / 16, 1 / 32]), default={"method": DEFAULTS},
+    quick=lambda labels: labels["h"] > 0.05
+    and labels["method"] in (DEFAULTS, "linear", "2 x 2 points", "modified F-bar"),
+    table=lambda rows: [line[:3] for line in table(rows)],
+    chart=WorkPrecision({DEFAULTS: "defaults", "TPIC, points as fine as cells^2": "TPIC, spacing h²\n(best)",
+                         "TPIC": "TPIC", "2 x 2 points": "2 x 2 points", "linear": "linear (worst)"},
                         "error of velocity and stress against\nthe exact solution (-)", "cells", ""))

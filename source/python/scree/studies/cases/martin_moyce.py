@@ -7,9 +7,8 @@ import numpy as np
 from scree.pictures.tables import name_lines
 from scree.studies.charts import RunCurves
 from scree.studies.study import Study, axis, reference_rows
-from scree.studies.words import Text, tabled
+from scree.studies.words import tabled
 
-TEXT = Text(__name__)
 WIDTH, GRAVITY = 1., 9.81  # a, m; m/s^2
 HEIGHT_ZONE = 0.1 * WIDTH
 LATE = "Z at T = 2.98"
@@ -33,7 +32,8 @@ def height(run):
         water = run.points(time, "water")
         near = water.positions[water.positions[:, 0] < HEIGHT_ZONE]
         times.append(water.time * math.sqrt(GRAVITY / WIDTH))
-        heights.append((np.max(near[:, 1]) + cell / 8) / (2 * WIDTH))  # points of 4 a cell: half a spacing below their surface
+        # points of 4 a cell: half a spacing below their surface
+        heights.append((np.max(near[:, 1]) + cell / 8) / (2 * WIDTH))
     return np.array(times), np.array(heights)
 
 
@@ -64,32 +64,38 @@ def measure(run):
             "largest volume error": np.max(run.statistics("Volume error (-)"))}
 
 
-def verdict(rows):
+def verdict(rows, claim):
     finest, coarsest = rows.with_smallest("h"), rows.with_largest("h")
     measured = dict(zip(*experiment("front")))[2.98]
     change = rows.largest["rms of Z"] - finest["rms of Z"]
-    claim = TEXT.claims(finest=finest, coarsest=coarsest)
+    claim = claim.shared(finest=finest, coarsest=coarsest)
     return [
-        claim("front", all(front > 1.05 * measured for front in rows.values[LATE]), measured=measured, ahead=finest[LATE] / measured - 1),
+        claim("front", all(front > 1.05 * measured for front in rows.values[LATE]), measured=measured,
+              ahead=finest[LATE] / measured - 1),
         claim("height", all(rms < 0.02 for rms in rows.values["rms of H"])),
-        claim("delay", all(row["rms of Z, delayed"] < 0.2 * row["rms of Z"] and row["rms of H, delayed"] > 2 * row["rms of H"] for row in rows),
+        claim("delay", all(row["rms of Z, delayed"] < 0.2 * row["rms of Z"]
+                           and row["rms of H, delayed"] > 2 * row["rms of H"] for row in rows),
               milliseconds=1e3 * finest["delay (T)"] * math.sqrt(0.05715 / (2 * GRAVITY))),
         claim("mesh", change < 0.25 * coarsest["rms of Z"], change=change)]
 
 
-TABLE = tabled({"h (m)": "{[h]:g}", LATE: "{[Z at T = 2.98]:.3g}", "RMS of Z": "{[rms of Z]:.3g}", "fitted delay (T)": "{[delay (T)]:.3g}",
+table = tabled({"h (m)": "{[h]:g}", LATE: "{[Z at T = 2.98]:.3g}", "RMS of Z": "{[rms of Z]:.3g}",
+                "fitted delay (T)": "{[delay (T)]:.3g}",
                 "RMS of Z, delayed": "{[rms of Z, delayed]:.3g}", "RMS of H": "{[rms of H]:.3g}",
                 "RMS of H, delayed": "{[rms of H, delayed]:.3g}"})
 
 
 def compared(rows):
     finest = rows.with_smallest("h")
-    return [(f"dam break, front x/a at T = 2.98, h = {finest['h']:g} m", "-", np.interp(2.98, *experiment("front")), finest[LATE]),
-            (f"dam break, height y/(2 a) at Y = 2, h = {finest['h']:g} m", "-", np.interp(2, *experiment("height")), finest["H at Y = 2"])]
+    return [(f"dam break, front x/a at T = 2.98, h = {finest['h']:g} m", "-", np.interp(2.98, *experiment("front")),
+             finest[LATE]),
+            (f"dam break, height y/(2 a) at Y = 2, h = {finest['h']:g} m", "-", np.interp(2, *experiment("height")),
+             finest["H at Y = 2"])]
 
 
 def curves(run):
-    return {f"{name}, {run.labels['h']:g} m": points for name, points in (("front", front(run)), ("height", height(run)))}
+    return {f"{name}, {run.labels['h']:g} m": points for name,
+            points in (("front", front(run)), ("height", height(run)))}
 
 
 def draw(figure, found, _):
@@ -98,18 +104,21 @@ def draw(figure, found, _):
     delay = fitted_delay(found[f"front, {sizes[0]:g} m"])
     for name, plot in plots.items():
         for size, style in ((sizes[0], "C0-"), (sizes[-1], "C1-")):
-            plot.plot(*found[f"{name}, {size:g} m"], style, linewidth=1.5, label=f"h = {size:g} m" if name == "front" else "_")
+            plot.plot(*found[f"{name}, {size:g} m"], style, linewidth=1.5,
+                      label=f"h = {size:g} m" if name == "front" else "_")
         times, values = found[f"{name}, {sizes[0]:g} m"]
         late = times + delay / (1 if name == "front" else math.sqrt(2))
-        plot.plot(late, values, "C0:", linewidth=1.2, label=f"h = {sizes[0]:g} m,\nlater by T = {delay:.3g}" if name == "front" else "_")
+        plot.plot(late, values, "C0:", linewidth=1.2,
+                  label=f"h = {sizes[0]:g} m,\nlater by T = {delay:.3g}" if name == "front" else "_")
         plot.plot(*experiment(name), "ko", markersize=4)
     plots["front"].set(xlabel="T = t (2 g/a)^0.5", ylabel="front Z = x/a", xlim=(0, 3.5), ylim=(1, 5))
-    plots["height"].set(xlabel="Y = t (g/a)^0.5; dots: measured", ylabel="height at the wall H = y/(2 a)", xlim=(0, 4.5), ylim=(0, 1.02))
+    plots["height"].set(xlabel="Y = t (g/a)^0.5; dots: measured", ylabel="height at the wall H = y/(2 a)",
+                        xlim=(0, 4.5), ylim=(0, 1.02))
     name_lines(plots["front"])
 
 
 STUDY = Study(
-    TEXT, "prm/water/dam_break.prm", entries={"End time": 1.35, "Mesh/Upper corner": "10, 2.4", "Output/Graphics": "points"},
+    "prm/water/dam_break.prm", entries={"End time": 1.35, "Mesh/Upper corner": "10, 2.4",
+                                        "Output/Graphics": "points"},
     variants=axis("h", lambda h: {"Mesh/Cell size": h, "Time step/Maximum time step": 0.04 * h}, [0.1, 0.05, 0.025]),
-    quick=lambda labels: labels["h"] >= 0.05, measure=measure, verdict=verdict, chart=RunCurves(curves, draw, 3.4), table=TABLE,
-    compared=compared)
+    quick=lambda labels: labels["h"] >= 0.05, chart=RunCurves(curves, draw, 3.4))

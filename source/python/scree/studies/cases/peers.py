@@ -6,14 +6,15 @@ import subprocess
 
 from scree.studies.charts import Curves, legend_above, tick_axis
 from scree.studies.study import Study, Variant, compiled, reference_rows
-from scree.studies.words import Text
 
-TEXT = Text(__name__)
 NS = "ns per point and step"
-SCENES = {"elastic 2D": "elastic_2d", "elastic 3D": "elastic_3d", "Mohr-Coulomb 3D": "mohr_coulomb_column_3d", "Nor-Sand 2D": "nor_sand_slope_2d",
-          "Nor-Sand 3D": "nor_sand_column_3d", "soil and water 2D": "nor_sand_saturated_slope_2d", "soil and water 3D": "nor_sand_saturated_column_3d"}
+SCENES = {"elastic 2D": "elastic_2d", "elastic 3D": "elastic_3d", "Mohr-Coulomb 3D": "mohr_coulomb_column_3d",
+          "Nor-Sand 2D": "nor_sand_slope_2d",
+          "Nor-Sand 3D": "nor_sand_column_3d", "soil and water 2D": "nor_sand_saturated_slope_2d",
+          "soil and water 3D": "nor_sand_saturated_column_3d"}
 LIKE = {"two-phase semi-implicit single-point 2D": "soil and water 2D", "slope failure 3D code": "Mohr-Coulomb 3D",
-        "Drucker-Prager 3D": "Mohr-Coulomb 3D", "elastic 2D re-binned": "elastic 2D", "elastic 3D re-binned": "elastic 3D"}
+        "Drucker-Prager 3D": "Mohr-Coulomb 3D", "elastic 2D re-binned": "elastic 2D",
+        "elastic 3D re-binned": "elastic 3D"}
 # ns with AVX-512; of soil and water half of a pair
 WANTED = {"elastic 2D": 45, "elastic 3D": 110, "Nor-Sand 2D": 85, "Nor-Sand 3D": 170, "soil and water 2D": 135}
 
@@ -40,15 +41,18 @@ def table(rows):
     def beside(row):
         fastest = fastest_peer(row["scene"])
         return (f"{fastest:.0f}", f"{fastest / row[NS]:.1f}") if fastest else ("-", "-")
-    return [("scene", "Scree (ns per point and time step)", "over the bare kernel", "fastest other code (ns)", "over Scree"),
+    return [("scene", "Scree (ns per point and time step)", "over the bare kernel", "fastest other code (ns)",
+             "over Scree"),
             *((row["scene"], f"{row[NS]:.0f}", f"{row['over kernel']:.1f}", *beside(row)) for row in rows)]
 
 
-def verdict(rows):
+def verdict(rows, claim):
     factors = {row["scene"]: fastest / row[NS] for row in rows if (fastest := fastest_peer(row["scene"]))}
-    slow = [f"{row['scene']} {row[NS]:.0f} ({WANTED[row['scene']]})" for row in rows if row[NS] > WANTED.get(row["scene"], math.inf)]
-    claim = TEXT.claims(rows=rows, slowest=rows.with_largest("over kernel"), factors=factors, slow="; ".join(slow))
-    return [claim("kernel", all(map(math.isfinite, rows.values["over kernel"]))), claim("other codes", min(factors.values()) > 1),
+    slow = [f"{row['scene']} {row[NS]:.0f} ({WANTED[row['scene']]})" for row in rows
+            if row[NS] > WANTED.get(row["scene"], math.inf)]
+    claim = claim.shared(rows=rows, slowest=rows.with_largest("over kernel"), factors=factors, slow="; ".join(slow))
+    return [claim("kernel", all(map(math.isfinite, rows.values["over kernel"]))),
+            claim("other codes", min(factors.values()) > 1),
             claim("slow" if slow else "fast", not slow, quick=False)]
 
 
@@ -70,6 +74,6 @@ def draw(figure, rows):
 
 
 STUDY = Study(
-    TEXT, "prm/benchmarks/elastic_2d.prm", measure=measure, verdict=verdict,
+    "prm/benchmarks/elastic_2d.prm",
     variants=[Variant({"scene": scene}, {}, f"prm/benchmarks/{name}.prm") for scene, name in SCENES.items()],
-    quick=lambda labels: labels["scene"] == "elastic 2D", table=table, chart=Curves(draw, 4.6, timed=True))
+    quick=lambda labels: labels["scene"] == "elastic 2D", chart=Curves(draw, 4.6, timed=True))

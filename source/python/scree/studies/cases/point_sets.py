@@ -10,9 +10,8 @@ from scree.pictures import fields, plane
 from scree.studies.charts import Pictures
 from scree.studies.rows import Span
 from scree.studies.study import Study, Variant, axis, product
-from scree.studies.words import Text, tabled
+from scree.studies.words import tabled
 
-TEXT = Text(__name__)
 SOILS = {"dense": "slopes/slope_saturated_dense", "loose": "slopes/slope_saturated_loose",
          "Mohr-Coulomb": "slopes/slope_saturated_mohr_coulomb"}
 FRONT, OSCILLATION, WATER = "front 99.5 % (m)", "p oscillation", "change of water mass"
@@ -41,19 +40,25 @@ def deposit_angle(soil):
 def pressure_share(run):
     """Part of the steps' time that the pressure takes, %; nan for a run that broke."""
     log = run.folder / "log.txt"
-    shares = re.findall(r"^pressure: .* ([\d.]+) %", log.read_text(encoding="utf-8") if log.exists() else "", re.MULTILINE)
+    shares = re.findall(r"^pressure: .* ([\d.]+) %", log.read_text(encoding="utf-8") if log.exists() else "",
+                        re.MULTILINE)
     return sum(map(float, shares)) if shares else math.nan
 
 
 def measure(run):
     time, potential = run.time, run.statistics("Potential energy (J)")
-    water, oscillation = run.statistics("Water mass (kg)") + run.statistics("Water lost (kg)"), run.statistics("p oscillation (-)")
-    return {"reached (s)": time[-1], "pressure share (%)": pressure_share(run), "front 90 % (m)": run.statistics("Front 90 % (m)")[-1],
-            FRONT: run.statistics("Front 99.5 % (m)")[-1], "water front 99.5 % (m)": run.statistics("Water front 99.5 % (m)")[-1],
+    water = run.statistics("Water mass (kg)") + run.statistics("Water lost (kg)")
+    oscillation = run.statistics("p oscillation (-)")
+    return {"reached (s)": time[-1], "pressure share (%)": pressure_share(run),
+            "front 90 % (m)": run.statistics("Front 90 % (m)")[-1],
+            FRONT: run.statistics("Front 99.5 % (m)")[-1],
+            "water front 99.5 % (m)": run.statistics("Water front 99.5 % (m)")[-1],
             "angle (degrees)": deposit_angle(run.points()) if run.labels["end"] > 1 else math.nan,
             OSCILLATION: np.trapz(oscillation, time) / np.ptp(time),
-            "largest suction (kPa)": -1e-3 * np.nanmin(run.statistics("Smallest p (Pa)")), WATER: water[-1] / water[0] - 1,
-            "numerical dissipation (J)": run.statistics("Numerical dissipation (J)")[-1], "J released": potential[0] - potential[-1]}
+            "largest suction (kPa)": -1e-3 * np.nanmin(run.statistics("Smallest p (Pa)")),
+            WATER: water[-1] / water[0] - 1,
+            "numerical dissipation (J)": run.statistics("Numerical dissipation (J)")[-1],
+            "J released": potential[0] - potential[-1]}
 
 
 def pair(rows, soil, whole):
@@ -66,14 +71,15 @@ def taken(row):
     return row["numerical dissipation (J)"] / row["J released"]
 
 
-def verdict(rows):
+def verdict(rows, claim):
     costs = {name: double["core-seconds"] / single["core-seconds"] for name in ("dense", "loose")
              for double, single in [pair(rows, name, False)] if double}
-    claim = TEXT.claims(costs=costs)
+    claim = claim.shared(costs=costs)
     claims = [claim("cost", all(cost < 1.14 for cost in costs.values()), quick=False)]
     whole = rows.where(lambda row: row["end"] > 1)
     if not whole:
-        return claims + [claim("mass", all(abs(change) < 1e-12 for change in rows.where(points="double").values[WATER]))]
+        return claims + [claim("mass", all(abs(change) < 1e-12
+                                           for change in rows.where(points="double").values[WATER]))]
     sand = {name: pair(rows, name, True) for name in ("dense", "loose")}
     shares = list(filter(math.isfinite, whole.values["pressure share (%)"]))
     fluid, stopped = pair(rows, "Mohr-Coulomb", True)
@@ -82,7 +88,8 @@ def verdict(rows):
         return " and ".join(f"{value(double, single):{form}} ({name})" for name, (double, single) in sand.items())
 
     def percent(value, form):
-        return " and ".join(f"{100 * value(double, single):{form}} % ({name})" for name, (double, single) in sand.items())
+        return " and ".join(f"{100 * value(double, single):{form}} % ({name})" for name,
+                            (double, single) in sand.items())
 
     return claims + [
         claim("pressure", max(shares) < 30, shares=Span.of(shares)),
@@ -93,15 +100,17 @@ def verdict(rows):
               farther=percent(lambda double, single: single[FRONT] / double[FRONT] - 1, ".1f"),
               water=percent(lambda double, single: single[WATER], "+.1f")),
         claim("dissipation", all(double["numerical dissipation (J)"] > 0 for double, _ in sand.values()),
-              double=percent(lambda double, single: taken(double), ".0f"), single=percent(lambda double, single: taken(single), ".0f")),
-        claim("failure", fluid["ended"] and not stopped["ended"], worst=True, stopped=stopped, oscillation=stopped[OSCILLATION] / fluid[OSCILLATION])]
+              double=percent(lambda double, single: taken(double), ".0f"),
+              single=percent(lambda double, single: taken(single), ".0f")),
+        claim("failure", fluid["ended"] and not stopped["ended"], worst=True, stopped=stopped,
+              oscillation=stopped[OSCILLATION] / fluid[OSCILLATION])]
 
 
 def table(rows):
     whole = rows.where(lambda row: row["end"] > 1)
     return tabled({"soil, water": "{0[soil]}, {0[points]}-point", "front of 99.5 % (m)": "{[front 99.5 % (m)]:.2f}",
-                   "p oscillation (-)": "{[p oscillation]:.3f}", WATER: "{[of water]}", "dissipation over released energy": "{[taken]}",
-                   "ended at (s)": "{[reached (s)]:.1f}"})(
+                   "p oscillation (-)": "{[p oscillation]:.3f}", WATER: "{[of water]}",
+                   "dissipation over released energy": "{[taken]}", "ended at (s)": "{[reached (s)]:.1f}"})(
         {**row, "of water": f"{100 * row[WATER]:+.1f} %" if row["ended"] else "diverges",
          "taken": f"{100 * taken(row):.0f} %" if row["ended"] else "diverges"} for row in whole)
 
@@ -122,7 +131,8 @@ def draw(figure, runs):
             plane.draw_points(plot, run.points(time), box, "mass", (0, 1), colour="0.72")
             drawn = plane.draw_points(plot, run.points(time, "water"), box, "pressure", (-5, 15))
             plot.label_outer()
-            plot.text(0.97, 0.9, f"{soil_name}, t = {time:g} s", transform=plot.transAxes, ha="right", va="top", fontsize=9)
+            plot.text(0.97, 0.9, f"{soil_name}, t = {time:g} s", transform=plot.transAxes, ha="right", va="top",
+                      fontsize=9)
     plots[0, 0].set_title("double-point", fontsize="medium")
     plots[0, 1].set_title("single-point", fontsize="medium")
     figure.colorbar(drawn, ax=plots, label=fields.field_label("pressure"), extend="both", aspect=50)
@@ -130,9 +140,8 @@ def draw(figure, runs):
 
 POINTS = axis("points", "Water/Point sets", ["double", "single"])
 STUDY = Study(
-    TEXT, "prm/slopes/slope_saturated_dense.prm", needs_end=False, entries={"Output/Checkpoint interval": 1},
+    "prm/slopes/slope_saturated_dense.prm", needs_end=False, entries={"Output/Checkpoint interval": 1},
     variants=product([soil(name) for name in SOILS], POINTS, axis("end", "End time", [12]))
     + product([soil(name) for name in ("dense", "loose")], POINTS,
               axis("end", lambda end: {"End time": end, "Output/Graphics": "none"}, [0.06])),
-    quick=lambda labels: labels["end"] < 1 and labels["soil"] == "dense", measure=measure, verdict=verdict, table=table,
-    chart=Pictures(draw, 7.5, timed=True))
+    quick=lambda labels: labels["end"] < 1 and labels["soil"] == "dense", chart=Pictures(draw, 7.5, timed=True))

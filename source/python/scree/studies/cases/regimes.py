@@ -8,9 +8,7 @@ from scree.closed_forms import oedometric_modulus
 from scree.studies.charts import Curves, tick_axis
 from scree.studies.rows import Span
 from scree.studies.study import Study, Variant, transfer
-from scree.studies.words import Text
 
-TEXT = Text(__name__)
 GRAVITY, WATER, GRAINS, POROSITY = 9.81, 1000., 2650., 0.4
 POISSON, FRICTION, K0 = 0.3, 30., 0.5
 SATURATED = (1 - POROSITY) * GRAINS + POROSITY * WATER
@@ -29,7 +27,8 @@ SUBMERGED = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-12]
 
 def group(height, young, conductivity):
     """Time of drainage over time of motion, -."""
-    return height**2 * WATER * GRAVITY / (conductivity * oedometric_modulus(young, POISSON)) / math.sqrt(height / GRAVITY)
+    return height**2 * WATER * GRAVITY / (conductivity * oedometric_modulus(young, POISSON)) / math.sqrt(height
+                                                                                                         / GRAVITY)
 
 
 def common(height, cells, length, top):
@@ -43,21 +42,25 @@ def common(height, cells, length, top):
 def collapse(height, young, cells=10):
     return {**common(height, cells, 5, 1.5), "Soil/Region": f"x < {height:g} && y < {height:g}",
             "Soil/Mohr-Coulomb/Young's modulus": young, "Soil/Mohr-Coulomb/Poisson's ratio": POISSON,
-            "Soil/Mohr-Coulomb/Friction angle": FRICTION, "Soil/Grain density": GRAINS, "Soil/Initial porosity": POROSITY,
-            "Soil/Initial state/K0": K0}
+            "Soil/Mohr-Coulomb/Friction angle": FRICTION, "Soil/Grain density": GRAINS,
+            "Soil/Initial porosity": POROSITY, "Soil/Initial state/K0": K0}
 
 
 def submerged(height, young):
-    return {**collapse(height, young), "Mesh/Upper corner": f"{4 * height:g}, {1.6 * height:g}", "Water/Region": f"y < {1.2 * height:g}",
+    return {**collapse(height, young), "Mesh/Upper corner": f"{4 * height:g}, {1.6 * height:g}",
+            "Water/Region": f"y < {1.2 * height:g}",
             "Water/Volume correction rate": 0.5 * math.sqrt(GRAVITY / (height / 10))}
 
 
 def loaded(height, young, cells=10):
     rate = STRAIN * oedometric_modulus(young, POISSON) / (END * math.sqrt(height / GRAVITY))  # Pa/s
     width = 2 * height / cells
-    return {**common(height, cells, 2 / cells, 1.2), "Gravity": "0, 0", "Stabilisation/F-bar": "none", "Soil/Region": f"y < {height:g}",
-            "Soil/Material": "linear elastic", "Soil/Linear elastic/Young's modulus": young, "Soil/Linear elastic/Poisson's ratio": POISSON,
-            "Soil/Initial porosity": POROSITY, "Soil/Grain density": GRAINS, "Soil/Initial state/Type": "none", "Soil/Initial state/K0": "auto",
+    return {**common(height, cells, 2 / cells, 1.2), "Gravity": "0, 0", "Stabilisation/F-bar": "none",
+            "Soil/Region": f"y < {height:g}",
+            "Soil/Material": "linear elastic", "Soil/Linear elastic/Young's modulus": young,
+            "Soil/Linear elastic/Poisson's ratio": POISSON,
+            "Soil/Initial porosity": POROSITY, "Soil/Grain density": GRAINS, "Soil/Initial state/Type": "none",
+            "Soil/Initial state/K0": "auto",
             "Surface load/Lower corner": f"0, {height:g}", "Surface load/Upper corner": f"{width:g}, {height:g}",
             "Surface load/Traction": f"0; {-rate:.6g}*t"}
 
@@ -65,13 +68,16 @@ def loaded(height, young, cells=10):
 def total_stress(height, young, cells=10):
     """Undrained soil as one phase. The first body keeps the base's name."""
     buoyant = (SATURATED - WATER) * GRAVITY
-    entries = {**common(height, cells, 5, 1.5), "Bodies": ", ".join(["Soil", *(f"Row{row}" for row in range(1, cells))])}
+    entries = {**common(height, cells, 5, 1.5),
+               "Bodies": ", ".join(["Soil", *(f"Row{row}" for row in range(1, cells))])}
     for row, name in enumerate(entries["Bodies"].split(", ")):
         low, high = height * row / cells, height * (row + 1) / cells
         strength = (1 + K0) / 2 * buoyant * (height - (low + high) / 2) * math.sin(math.radians(FRICTION))
-        values = {"Region": f"x < {height:g} && y >= {low:g} && y < {high:g}", "Material": "Mohr-Coulomb", "Grain density": SATURATED,
-                  "Initial porosity": 0, "Mohr-Coulomb/Young's modulus": young * (1 + UNDRAINED_POISSON) / (1 + POISSON),
-                  "Mohr-Coulomb/Poisson's ratio": UNDRAINED_POISSON, "Mohr-Coulomb/Friction angle": 0, "Mohr-Coulomb/Cohesion": strength,
+        values = {"Region": f"x < {height:g} && y >= {low:g} && y < {high:g}", "Material": "Mohr-Coulomb",
+                  "Grain density": SATURATED, "Initial porosity": 0,
+                  "Mohr-Coulomb/Young's modulus": young * (1 + UNDRAINED_POISSON) / (1 + POISSON),
+                  "Mohr-Coulomb/Poisson's ratio": UNDRAINED_POISSON, "Mohr-Coulomb/Friction angle": 0,
+                  "Mohr-Coulomb/Cohesion": strength,
                   "Mohr-Coulomb/Tension cut-off": 1e9, "Initial state/Type": "K0", "Initial state/K0": 1}
         entries.update({f"{name}/{key}": value for key, value in values.items()})
     return entries
@@ -96,7 +102,8 @@ def variants():
     add("submerged", "drained", SIZES[0], 0., {**collapse(*SIZES[0]), **heavy, **buoyant}, DRY)
     for k in SUBMERGED:
         add("submerged", "coupled", SIZES[0], k, submerged(*SIZES[0]), COLLAPSE)
-    add("collapse", "single-point", SIZES[0], min(CONDUCTIVITIES), {**collapse(*SIZES[0]), "Water/Point sets": "single"}, COLLAPSE)
+    add("collapse", "single-point", SIZES[0], min(CONDUCTIVITIES),
+        {**collapse(*SIZES[0]), "Water/Point sets": "single"}, COLLAPSE)
     add("collapse", "total stress", SIZES[0], 0., total_stress(*SIZES[0]), DRY)
     add("collapse", "total stress", SIZES[0], 0., total_stress(*SIZES[0], cells=20), DRY, cells=20)
     add("collapse", "coupled", SIZES[0], min(CONDUCTIVITIES), collapse(*SIZES[0], cells=20), COLLAPSE, cells=20)
@@ -111,7 +118,8 @@ def measure(run):
     else:
         values = run.statistics("Front 90 % (m)") / height
     samples = np.interp(np.array(TIMES) * math.sqrt(height / GRAVITY), run.time, values)
-    return {"group": group(height, young, k) if k else math.nan, **{f"at {time}": value for time, value in zip(TIMES, samples)}}
+    return {"group": group(height, young, k) if k else math.nan,
+            **{f"at {time}": value for time, value in zip(TIMES, samples)}}
 
 
 def values(row):
@@ -120,7 +128,8 @@ def values(row):
 
 def undrained(rows, like):
     """The coupled run of the smallest conductivity with the size of another run."""
-    return rows.first(scene=like["scene"], H=like["H"], E=like["E"], cells=like["cells"], model="coupled", k=min(CONDUCTIVITIES))
+    return rows.first(scene=like["scene"], H=like["H"], E=like["E"], cells=like["cells"], model="coupled",
+                      k=min(CONDUCTIVITIES))
 
 
 def error(rows, row, model):
@@ -134,12 +143,14 @@ def error(rows, row, model):
 def curve(rows, scene, size, model):
     """Groups, ascending, and errors; without the run that is the model."""
     runs = rows.where(scene=scene, model="coupled", H=size[0], E=size[1], cells=10)
-    runs = sorted((row for row in runs if model == "drained" or row["k"] > min(CONDUCTIVITIES)), key=lambda row: row["group"])
+    runs = sorted((row for row in runs if model == "drained" or row["k"] > min(CONDUCTIVITIES)),
+                  key=lambda row: row["group"])
     return np.array([row["group"] for row in runs]), np.array([error(rows, row, model) for row in runs])
 
 
 def threshold(rows, scene, size, model):
-    """The group below (drained) or above (undrained) which all errors are small enough, between two runs by their logarithms; nan if there is none."""
+    """The group below (drained) or above (undrained) which all errors are small enough, between two runs by their
+    logarithms; nan if there is none."""
     groups, errors = curve(rows, scene, size, model)
     if model == "drained":
         groups, errors = groups[::-1], errors[::-1]
@@ -156,7 +167,8 @@ def sizes(rows):
 
 
 def thresholds(rows, scene, model):
-    found = [threshold(rows, scene, size, model) for size in sizes(rows) if rows.where(scene=scene, H=size[0], E=size[1])]
+    found = [threshold(rows, scene, size, model) for size in sizes(rows)
+             if rows.where(scene=scene, H=size[0], E=size[1])]
     return [value for value in found if math.isfinite(value)]
 
 
@@ -177,7 +189,7 @@ def shorter_in_air(rows):
     return Span.of(error(rows, row, "drained") for row in collapses_of(rows).where(scene="collapse"))
 
 
-def verdict(rows):
+def verdict(rows, claim):
     drained = thresholds(rows, "load", "drained")
     load, air, under = (thresholds(rows, scene, "undrained") for scene in ("load", "collapse", "submerged"))
     slowest = max(load + air + under)
@@ -186,14 +198,14 @@ def verdict(rows):
     first = collapses.where(scene="collapse", H=1, E=1e6)
     dry_run, wet_run = rows.first(scene="collapse", model="drained", H=1, E=1e6), first.first(k=min(CONDUCTIVITIES))
     single = error(rows, rows.first(model="single-point"), "undrained")
-    claim = TEXT.claims(drained=span(drained), load=span(load), air=span(air))
+    claim = claim.shared(drained=span(drained), load=span(load), air=span(air))
     claims = [
-        claim("limits", 0.3 < min(drained) < 1 and 100 < slowest < UNDRAINED_BOUND, low=number(min(drained)), high=number(slowest),
-              expected=UNDRAINED_BOUND),
+        claim("limits", 0.3 < min(drained) < 1 and 100 < slowest < UNDRAINED_BOUND, low=number(min(drained)),
+              high=number(slowest), expected=UNDRAINED_BOUND),
         claim("load", max(drained) < 2 * min(drained) and max(load) < 2 * min(load), pairs=len(sizes(rows))),
         claim("collapse", max(air) < 1.5 * max(load) and min(air) < 0.85 * min(load), part=min(air) / min(load)),
-        claim("dry", shorter.low > ENOUGH and all(values(row)[-1] > values(dry_run)[-1] for row in first), shorter=shorter,
-              cost=dry_run["core-seconds"] / wet_run["core-seconds"]),
+        claim("dry", shorter.low > ENOUGH and all(values(row)[-1] > values(dry_run)[-1] for row in first),
+              shorter=shorter, cost=dry_run["core-seconds"] / wet_run["core-seconds"]),
         claim("single-point", single < 0.01, quick=False, error=single)]
     if wet:
         claims.append(claim("submerged", min(wet) > ENOUGH, quick=False, least=min(wet), limits=span(under)))
@@ -201,7 +213,8 @@ def verdict(rows):
     if total:
         off = {f"{row['cells']:g}": np.max(np.abs(values(row) / values(coupled) - 1)) for row, coupled in total}
         finest, coupled = total[-1]
-        claims.append(claim("total stress", max(off.values()) < 0.16, quick=False, off=" and ".join(f"{100 * part:.0f} %" for part in off.values()),
+        claims.append(claim("total stress", max(off.values()) < 0.16, quick=False,
+                            off=" and ".join(f"{100 * part:.0f} %" for part in off.values()),
                             cells=" and ".join(off), cost=finest["core-seconds"] / coupled["core-seconds"]))
     return claims
 
@@ -210,7 +223,8 @@ def table(rows):
     def limits(scene, size, model):
         return number(value) if math.isfinite(value := threshold(rows, scene, size, model)) else "-"
     return [("scene", "H (m)", "E (MPa)", "drained below G", "undrained above G"),
-            *((scene, f"{size[0]:g}", f"{1e-6 * size[1]:g}", limits(scene, size, "drained"), limits(scene, size, "undrained"))
+            *((scene, f"{size[0]:g}", f"{1e-6 * size[1]:g}", limits(scene, size, "drained"),
+               limits(scene, size, "undrained"))
               for scene in ("load", "collapse", "submerged") for size in sizes(rows)
               if rows.where(scene=scene, model="coupled", H=size[0], E=size[1]))]
 
@@ -235,7 +249,7 @@ def draw(figure, rows):
 
 
 STUDY = Study(
-    TEXT, COLLAPSE, variants=variants(), measure=measure, verdict=verdict,
-    quick=lambda labels: (labels["H"], labels["E"], labels["cells"]) == (*SIZES[0], 10) and labels["scene"] != "submerged"
+    COLLAPSE, variants=variants(), quick=lambda labels: (labels["H"], labels["E"], labels["cells"]) == (*SIZES[0], 10)
+    and labels["scene"] != "submerged"
     and labels["model"] != "total stress" and labels["k"] in (0, 1e-1, 1e-2, 1e-3, 1e-5, 1e-12),
-    table=table, chart=Curves(draw, 4., timed=True))
+    chart=Curves(draw, 4., timed=True))

@@ -10,22 +10,23 @@ from scree.studies.charts import Curves
 from scree.studies.limits import Limit
 from scree.studies.measures import lost_energy, mean_depth
 from scree.studies.study import Study, Variant
-from scree.studies.words import Text, filled
+from scree.studies.words import filled
 
-TEXT = Text(__name__)
 FIXED, FRICTION, LOW_PIC = "fixed", "friction", "friction, PIC rate 1/s"
 TREATMENTS = {FIXED: {"Boundaries/Bottom": "fixed"}, FRICTION: {"Boundaries/Bottom": "friction 22.3"},
               LOW_PIC: {"Boundaries/Bottom": "friction 22.3", "Transfer/PIC rate": 1}}
 COLUMN, SLOPE, SATURATED, PERMEABLE = "column", "slope", "saturated slope", "permeable saturated slope"
-FILES = {COLUMN: "columns/column", SLOPE: "slopes/slope", SATURATED: "slopes/slope_saturated", PERMEABLE: "slopes/slope_saturated"}
+FILES = {COLUMN: "columns/column", SLOPE: "slopes/slope", SATURATED: "slopes/slope_saturated",
+         PERMEABLE: "slopes/slope_saturated"}
 BOXES = {COLUMN: (4.5, 1.5), SLOPE: (10., 2.5), SATURATED: (12., 2.5), PERMEABLE: (12., 2.5)}  # m
 TIMES = {COLUMN: {"dense": 1.5, "loose": 1.5}, SLOPE: {"dense": 3., "loose": 3.}, SATURATED: {"dense": 9., "loose": 5.},
          PERMEABLE: {"dense": 6.}}  # s
 FOUR, WET = (10, 14, 20, 28), (7, 10, 14, 20)
 CELLS_PER_METRE = {**{(COLUMN, soil, treatment): FOUR for treatment in TREATMENTS for soil in ("dense", "loose")},
-                   (SLOPE, "dense", FRICTION): FOUR, (SLOPE, "loose", FRICTION): FOUR[:3], (SLOPE, "dense", LOW_PIC): FOUR,
-                   (SLOPE, "loose", LOW_PIC): FOUR, (SATURATED, "loose", FRICTION): WET, (SATURATED, "dense", FRICTION): WET,
-                   (PERMEABLE, "dense", FRICTION): WET}
+                   (SLOPE, "dense", FRICTION): FOUR, (SLOPE, "loose", FRICTION): FOUR[:3],
+                   (SLOPE, "dense", LOW_PIC): FOUR,
+                   (SLOPE, "loose", LOW_PIC): FOUR, (SATURATED, "loose", FRICTION): WET,
+                   (SATURATED, "dense", FRICTION): WET, (PERMEABLE, "dense", FRICTION): WET}
 RECOMMENDED = {COLUMN: LOW_PIC, SLOPE: LOW_PIC, SATURATED: FRICTION, PERMEABLE: FRICTION}
 QUANTILES = (80, 90, 95, 99, 99.5)
 FRONT, TIP = "front 90 % (m)", "front 99 % (m)"
@@ -57,10 +58,12 @@ def measure(run):
 
 def variant(scene, soil, treatment, cells_per_metre):
     points = 3 if scene == COLUMN or (scene, soil, treatment) == (SLOPE, "dense", LOW_PIC) else 2
-    box = ", ".join(f"{math.ceil(round(length * cells_per_metre, 6)) / cells_per_metre:.12g}" for length in BOXES[scene])
+    box = ", ".join(f"{math.ceil(round(length * cells_per_metre, 6)) / cells_per_metre:.12g}"
+                    for length in BOXES[scene])
     end = TIMES[scene][soil]
-    entries = {"Mesh/Cell size": 1 / cells_per_metre, "Mesh/Upper corner": box, **TREATMENTS[treatment], "End time": end,
-               "Output/Interval": end if scene in (COLUMN, SLOPE) else 1., "Output/Graphics": "points", "Soil/Points per cell": points}
+    entries = {"Mesh/Cell size": 1 / cells_per_metre, "Mesh/Upper corner": box, **TREATMENTS[treatment],
+               "End time": end, "Output/Interval": end if scene in (COLUMN, SLOPE) else 1., "Output/Graphics": "points",
+               "Soil/Points per cell": points}
     if scene in (SATURATED, PERMEABLE):
         entries["Water/Points per cell"] = points
     if scene == PERMEABLE:
@@ -80,11 +83,11 @@ def fronts(limit):
 def course(limit):
     """The fronts of all sizes and what follows from them."""
     order = f"order {limit.order:.1f}" if len(limit.h) > 2 and 0.51 < limit.order < 2.99 else "order not determined"
-    return filled("{} m with cells of {:.3g} m. Last change {:+.1f %}, {}, {:.2f} m at h = 0", fronts(limit), list(limit.h),
-                  limit.last_change, order, limit)
+    return filled("{} m with cells of {:.3g} m. Last change {:+.1f %}, {}, {:.2f} m at h = 0", fronts(limit),
+                  list(limit.h), limit.last_change, order, limit)
 
 
-def verdict(rows):
+def verdict(rows, claim):
     groups = curves(rows)
     limits = {key: Limit(group, FRONT) for key, group in groups.items()}
     best = {key: limit for key, limit in limits.items() if key[2] == RECOMMENDED[key[0]]}
@@ -94,27 +97,33 @@ def verdict(rows):
 
     def values(key):
         scene, soil, treatment = key
-        return {"scene": f"{scene.capitalize()}, {soil}, {treatment}", "course": course(limits[key]), "limit": limits[key]}
+        return {"scene": f"{scene.capitalize()}, {soil}, {treatment}", "course": course(limits[key]),
+                "limit": limits[key]}
 
-    claim = TEXT.claims(worst_front=worst, worst_tip=worst_tip, spread=spread, spread_tip=spread_tip)
+    claim = claim.shared(worst_front=worst, worst_tip=worst_tip, spread=spread, spread_tip=spread_tip)
     claims = [claim("front", worst < 0.02, quick=False)]
-    claims += [claim("recommended", abs(limit.last_change) < 0.02, quick=False, tabled=True, tip=tips[key], tips=fronts(tips[key]), **values(key))
+    claims += [claim("recommended", abs(limit.last_change) < 0.02, quick=False, tabled=True, tip=tips[key],
+                     tips=fronts(tips[key]), **values(key))
                for key, limit in best.items()]
     for (scene, soil, treatment), limit in limits.items():
         if treatment == FIXED:
             other = limits[scene, soil, RECOMMENDED[scene]]
-            claims.append(claim("fixed", limit.missing > 1.5 * other.missing, tabled=True, other=other, **values((scene, soil, treatment))))
-    dry, wet = (max((abs(tip.last_change) for (scene, _, _), tip in tips.items() if (scene in (COLUMN, SLOPE)) == is_dry), default=math.nan)
+            claims.append(claim("fixed", limit.missing > 1.5 * other.missing, tabled=True, other=other,
+                                **values((scene, soil, treatment))))
+    dry, wet = (max((abs(tip.last_change) for (scene, _, _),
+                     tip in tips.items() if (scene in (COLUMN, SLOPE)) == is_dry), default=math.nan)
                 for is_dry in (True, False))
     return [*claims, claim("tip", dry < 0.03 < wet, quick=False, dry=dry, wet=wet)]
 
 
 def table(rows):
     groups = {key: group for key, group in curves(rows).items() if key[2] in (RECOMMENDED[key[0]], FIXED)}
-    lines = [("scene", "base", "smallest h (m)", "fronts of 90 % (m)", "last change", "at h = 0 (m)", "99 %, last change")]
+    lines = [("scene", "base", "smallest h (m)", "fronts of 90 % (m)", "last change", "at h = 0 (m)",
+              "99 %, last change")]
     for (scene, soil, treatment), group in sorted(groups.items(), key=lambda item: item[0][2] == FIXED):
         limit, tip = Limit(group, FRONT), Limit(group, TIP)
-        lines.append((f"{scene}, {soil}", "fixed" if treatment == FIXED else "friction", f"{limit.h[-1]:.3g}", fronts(limit),
+        lines.append((f"{scene}, {soil}", "fixed" if treatment == FIXED else "friction", f"{limit.h[-1]:.3g}",
+                      fronts(limit),
                       f"{100 * limit.last_change:+.1f} %", f"{limit:.2f}", f"{100 * tip.last_change:+.1f} %"))
     return lines
 
@@ -130,13 +139,14 @@ def draw(figure, rows):
             axes.plot(limit.h[::-1], limit.values[::-1], color=color, linestyle=linestyle, marker="o", markersize=4,
                       label=f"{soil},\n{'fixed base' if treatment == FIXED else 'friction'}")
             axes.errorbar(0., limit.value, limit.uncertainty, color=color, marker="s", markersize=4, capsize=3)
-        axes.set(title=scene, xlabel="cell size h (m); squares: fit at h = 0", ylabel="front of 90 % (m)", xlim=(-0.005, None))
+        axes.set(title=scene, xlabel="cell size h (m); squares: fit at h = 0", ylabel="front of 90 % (m)",
+                 xlim=(-0.005, None))
         axes.margins(y=0.2)
         name_lines(axes, 8)
 
 
 STUDY = Study(
-    TEXT, "prm/slopes/slope_dense.prm",
-    variants=[variant(scene, soil, treatment, n) for (scene, soil, treatment), sizes in CELLS_PER_METRE.items() for n in sizes],
-    quick=lambda labels: labels["scene"] == COLUMN and labels["soil"] == "dense" and labels["treatment"] != FRICTION and labels["h"] > 0.06,
-    measure=measure, verdict=verdict, table=table, chart=Curves(draw, 5.4))
+    "prm/slopes/slope_dense.prm", variants=[variant(scene, soil, treatment, n) for (scene, soil, treatment),
+                                            sizes in CELLS_PER_METRE.items() for n in sizes],
+    quick=lambda labels: labels["scene"] == COLUMN and labels["soil"] == "dense" and labels["treatment"] != FRICTION
+    and labels["h"] > 0.06, chart=Curves(draw, 5.4))

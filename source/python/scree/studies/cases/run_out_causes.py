@@ -4,9 +4,7 @@
 from scree.studies.cases import run_out
 from scree.studies.charts import Curves
 from scree.studies.study import Study, transfer
-from scree.studies.words import Text
 
-TEXT = Text(__name__)
 BASES = run_out.FIXED, run_out.FRICTION
 COLUMN_CAUSES = {
     "as it is": {},
@@ -33,11 +31,13 @@ def changed(scene, soil, base, name, entries):
 VARIANTS = [variant for base in BASES for name, entries in COLUMN_CAUSES.items()
             if base == run_out.FIXED or name in ("as it is", "PIC rate 0", "no F-bar", "4 x 4 points")
             for variant in changed(run_out.COLUMN, "dense", base, name, entries)]
+measure = run_out.measure
 
 
 def pairs(rows):
     """{(scene, base, what is changed): (row of the largest cells, row of the smallest)}."""
-    return {key: (group[0], group[-1]) for key, group in rows.grouped("scene", "treatment", "changed").items() if len(group) > 1}
+    return {key: (group[0], group[-1]) for key,
+            group in rows.grouped("scene", "treatment", "changed").items() if len(group) > 1}
 
 
 def advance(pair, percent):
@@ -46,12 +46,13 @@ def advance(pair, percent):
     return small / large - 1
 
 
-def verdict(rows):
+def verdict(rows, claim):
     both = pairs(rows)
     plain = {base: both[run_out.COLUMN, base, "as it is"] for base in BASES}
     large, small = (row["h"] for row in plain[run_out.FIXED])
-    (fixed, fixed_tip), (friction, friction_tip) = ([advance(plain[base], percent) for percent in (90, 99)] for base in BASES)
-    claim = TEXT.claims(fixed=fixed, fixed_tip=fixed_tip, friction=friction, friction_tip=friction_tip)
+    (fixed, fixed_tip), (friction, friction_tip) = ([advance(plain[base], percent) for percent in (90, 99)]
+                                                    for base in BASES)
+    claim = claim.shared(fixed=fixed, fixed_tip=fixed_tip, friction=friction, friction_tip=friction_tip)
     claims = [claim("base", fixed_tip > 1.5 * friction_tip, large=large, small=small)]
     name = (run_out.COLUMN, run_out.FRICTION, "PIC rate 0")
     if name in both:
@@ -61,8 +62,8 @@ def verdict(rows):
         rates = [advance(changed[rate], 90) for rate in ("PIC rate 0", "as it is", "PIC rate 20 1/s")]
         others = {what: advance(changed[what], 99) for what in ("no F-bar", "2 x 2 points", "4 x 4 points", "TPIC")}
         claims += [
-            claim("damping", free < 0.5 * friction and free_tip < 0.6 * friction_tip, quick=False, free=free, free_tip=free_tip, lost=lost,
-                  kept=kept),
+            claim("damping", free < 0.5 * friction and free_tip < 0.6 * friction_tip, quick=False, free=free,
+                  free_tip=free_tip, lost=lost, kept=kept),
             claim("rates", rates == sorted(rates), quick=False, rates=rates),
             claim("others", min(others.values()) > 0.6 * fixed_tip, quick=False, others=others)]
     return claims
@@ -70,13 +71,14 @@ def verdict(rows):
 
 def draw(figure, rows):
     both = pairs(rows)
-    groups = {f"dense column, base: {base}": {key[2]: pair for key, pair in both.items() if key[:2] == (run_out.COLUMN, base)}
+    groups = {f"dense column, base: {base}": {key[2]: pair for key,
+                                              pair in both.items() if key[:2] == (run_out.COLUMN, base)}
               for base in BASES}
     groups = {title: group for title, group in groups.items() if group}
     for axes, (title, group) in zip(figure.subplots(1, len(groups), squeeze=False, sharex=True)[0], groups.items()):
         for offset, quantile in ((-0.2, 90), (0.2, 99)):
-            axes.barh([line + offset for line in range(len(group))], [100 * advance(pair, quantile) for pair in group.values()], 0.38,
-                      label=f"front of {quantile} %")
+            axes.barh([line + offset for line in range(len(group))],
+                      [100 * advance(pair, quantile) for pair in group.values()], 0.38, label=f"front of {quantile} %")
         axes.set_yticks(range(len(group)), list(group))
         axes.invert_yaxis()
         axes.axvline(0, color="0.5", linewidth=0.8)
@@ -86,6 +88,6 @@ def draw(figure, rows):
 
 
 STUDY = Study(
-    TEXT, "prm/columns/column_dense.prm", variants=VARIANTS,
+    "prm/columns/column_dense.prm", variants=VARIANTS,
     quick=lambda labels: labels["scene"] == run_out.COLUMN and labels["changed"] == "as it is" and labels["h"] > 0.06,
-    measure=run_out.measure, verdict=verdict, chart=Curves(draw, 4.4))
+    chart=Curves(draw, 4.4))

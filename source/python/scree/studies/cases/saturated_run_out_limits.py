@@ -9,9 +9,7 @@ from scree.studies.limits import HEIGHT, MASS, TIP, TRANSFERS, Limit, apart, dep
 from scree.studies.measures import lost_energy
 from scree.studies.rows import Rows
 from scree.studies.study import Study, Variant
-from scree.studies.words import Text
 
-TEXT = Text(__name__)
 COLUMN, SLOPE = "column", "slope"
 FIXED, FRICTION = "fixed", "friction"
 FILES = {COLUMN: "prm/columns/column_saturated.prm", SLOPE: "prm/slopes/slope_saturated_loose_friction.prm"}
@@ -26,13 +24,15 @@ def variant(scene, base, transfer, cells):
     size = HEIGHTS[scene] / cells
     corner = ", ".join(f"{np.ceil(round(length / size, 6)) * size:.12g}" for length in BOXES[scene])
     return Variant({"scene": scene, "base": base, "transfer": transfer, "cells": cells},
-                   {**TRANSFERS[transfer], "Mesh/Cell size": f"{size:.12g}", "Mesh/Upper corner": corner, "Boundaries/Bottom": BASES[scene, base],
-                    "Soil/Points per cell": 3, "Water/Points per cell": 3, "Output/Graphics": "points", "Output/Interval": 0.5,
-                    "End time": 4 if scene == COLUMN else 5}, FILES[scene])
+                   {**TRANSFERS[transfer], "Mesh/Cell size": f"{size:.12g}", "Mesh/Upper corner": corner,
+                    "Boundaries/Bottom": BASES[scene, base],
+                    "Soil/Points per cell": 3, "Water/Points per cell": 3, "Output/Graphics": "points",
+                    "Output/Interval": 0.5, "End time": 4 if scene == COLUMN else 5}, FILES[scene])
 
 
 def variants():
-    return [variant(scene, base, transfer, cells) for scene, base in BASES for transfer in TRANSFERS for cells in SIZES[scene]]
+    return [variant(scene, base, transfer, cells) for scene,
+            base in BASES for transfer in TRANSFERS for cells in SIZES[scene]]
 
 
 def measure(run):
@@ -40,7 +40,8 @@ def measure(run):
     return {FRONT: front_of_depth(points, 0.02 * height, 0.5 * height, 0.05 * height, 0.0025 * height),
             MASS: run.statistics("Front 90 % (m)")[-1], TIP: run.statistics("Front 99 % (m)")[-1],
             HEIGHT: depth(points, 0., 0.1 * height)[0], LAST: points.positions[:, 0].max(),
-            "p oscillation": np.median(run.statistics("p oscillation (-)")[1:]), "energy lost numerically": lost_energy(run)}
+            "p oscillation": np.median(run.statistics("p oscillation (-)")[1:]),
+            "energy lost numerically": lost_energy(run)}
 
 
 def curves(rows):
@@ -48,8 +49,8 @@ def curves(rows):
 
 
 def table(rows):
-    found = [["scene", "base", "transfer", "99 %, 20 to 40 cells", "99 %, h = 0 (m)", "90 %, h = 0 (m)", "depth 0.02 H, h = 0 (m)",
-              "height, h = 0 (m)"]]
+    found = [["scene", "base", "transfer", "99 %, 20 to 40 cells", "99 %, h = 0 (m)", "90 %, h = 0 (m)",
+              "depth 0.02 H, h = 0 (m)", "height, h = 0 (m)"]]
     for (scene, base, transfer), group in curves(rows).items():
         if len(group) == len(SIZES[scene]):
             limits = [f"{Limit(group, name):.2f}" for name in (TIP, MASS, FRONT, HEIGHT)]
@@ -57,8 +58,8 @@ def table(rows):
     return found
 
 
-def verdict(rows):
-    groups, claims, claim = curves(rows), [], TEXT.claims()
+def verdict(rows, claim):
+    groups, claims = curves(rows), []
     for scene, base in BASES:
         of = {transfer: groups.get((scene, base, transfer), []) for transfer in TRANSFERS}
         if any(len(group) < len(SIZES[scene]) for group in of.values()):
@@ -70,7 +71,8 @@ def verdict(rows):
         for quantity, percent in ((TIP, 99), (MASS, 90)):
             limits = {transfer: Limit(group, quantity) for transfer, group in of.items()}
             told = ", ".join(f"{limit:.2f} m ({transfer})" for transfer, limit in limits.items())
-            claims.append(claim("transfers", apart(limits) < 0.03, quick=False, percent=percent, limits=told, apart=apart(limits), **name))
+            claims.append(claim("transfers", apart(limits) < 0.03, quick=False, percent=percent, limits=told,
+                                apart=apart(limits), **name))
     last = max(rows, key=lambda row: row[LAST] / BOXES[row["scene"]][0])
     farthest = last[LAST] / BOXES[last["scene"]][0]
     return [*claims, claim("box", farthest < 0.95, farthest=farthest, row=last)]
@@ -83,10 +85,11 @@ def draw(figure, rows):
             group = groups.get((scene, base, transfer), Rows())
             axes.plot(group.values["cells"], group.values[TIP], style, marker="o", markersize=4, label=transfer)
             axes.plot(group.values["cells"], group.values[MASS], style.replace("-", "--"))
-        axes.set(title=f"{scene}, base {base}", xlabel="cells over the height", ylabel="front of 99 % and (dashed) 90 % (m)")
+        axes.set(title=f"{scene}, base {base}", xlabel="cells over the height",
+                 ylabel="front of 99 % and (dashed) 90 % (m)")
         name_lines(axes)
 
 
 STUDY = Study(
-    TEXT, FILES[COLUMN], variants=variants(), table=table, measure=measure, verdict=verdict,
+    FILES[COLUMN], variants=variants(),
     quick=lambda labels: labels["scene"] == COLUMN and labels["cells"] == 10, chart=Curves(draw))

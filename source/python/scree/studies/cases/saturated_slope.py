@@ -7,12 +7,11 @@ import numpy as np
 
 from scree.studies.cases import dry_slope
 from scree.studies.charts import WorkPrecision
-from scree.studies.precision import DEFAULTS, LimitFit, at_finest, compared, curve, methods, order, ratios, table, variants
+from scree.studies.precision import (DEFAULTS, LimitFit, at_finest, beside_defaults, curve, methods, order, ratios,
+                                     table, variants)
 from scree.studies.rows import Lookup
 from scree.studies.study import Study
-from scree.studies.words import Text
 
-TEXT = Text(__name__)
 FLIP = {"Transfer/Method": "FLIP", "Transfer/PIC rate": 5}
 CANDIDATE = "FLIP, 3 x 3 points"
 METHODS = methods("single-point", "no F-bar", "2 x 2 points", "3 x 3 points",
@@ -32,32 +31,35 @@ def measure(run):
             "CG iterations": np.mean(run.statistics("CG iterations per step")[1:])}
 
 
-def verdict(rows):
-    error, oscillation, p_oscillation = (ratios(rows, name) for name in ("error", "mean oscillation", "median p oscillation"))
+def verdict(rows, claim):
+    error, oscillation, p_oscillation = (ratios(rows, name)
+                                         for name in ("error", "mean oscillation", "median p oscillation"))
     coarse = next(iter(curve(rows, CANDIDATE).values()), dict.fromkeys(rows[0], math.nan))
     fine, finest = list(curve(rows).values())[-1], min(curve(rows))
     flip, own = curve(rows, "FLIP", TIP), curve(rows, column=TIP)
     is_farther = any(flip[h][TIP] > own[h][TIP] for h in flip.keys() & own.keys())
     gained = Lookup(lambda method: rows.where(method=method).largest["energy gained"])
     peak = Lookup(lambda method: _largest(rows, method))
-    claim = TEXT.claims(**compared(rows), h=finest, peak=peak, oscillation=oscillation, p_oscillation=p_oscillation)
+    claim = claim.shared(**beside_defaults(rows), h=finest, peak=peak, oscillation=oscillation,
+                         p_oscillation=p_oscillation)
     return [
         claim("convergence", at_finest(rows, CANDIDATE) < 0.15
-              and not any(LimitFit(rows, REFERENCE, method).found for method in (CANDIDATE, DEFAULTS)), quick=False, worst=True,
+              and not any(LimitFit(rows, REFERENCE, method).found for method in (CANDIDATE, DEFAULTS)), quick=False,
+              worst=True,
               candidate=at_finest(rows, CANDIDATE), defaults=at_finest(rows, DEFAULTS), reference=REFERENCE),
         claim("FLIP", error["FLIP"] < 1.5 and not is_farther and gained["FLIP"] < 0.005,
               front=Lookup(lambda method: at_finest(rows, method, TIP))),
         claim("peaks", peak["FLIP"] > 1.2 * peak[DEFAULTS], quick=False),
-        claim("pore pressure", rows.largest["largest p, kPa"] < 1.05e-3 * HYDROSTATIC and p_oscillation["FLIP"] < 1.5, quick=False,
-              rows=rows, hydrostatic=HYDROSTATIC / 1e3),
+        claim("pore pressure", rows.largest["largest p, kPa"] < 1.05e-3 * HYDROSTATIC and p_oscillation["FLIP"] < 1.5,
+              quick=False, rows=rows, hydrostatic=HYDROSTATIC / 1e3),
         claim("step", error["Courant number 0.3"] > 1.05, quick=False),
         claim("points", error["3 x 3 points"] < 1.1 and p_oscillation["3 x 3 points"] < 1.2),
         claim("single-point", 0.8 < error["single-point"] < 1.55 and gained["single-point"] > 0.02,
               single=gained["single-point"], double=gained[DEFAULTS]),
         claim("F-bar", oscillation["no F-bar"] > 1.3, quick=False),
         claim("tolerance", abs(error["tolerance 1e-3"] - 1) < 0.01, quick=False),
-        claim("cost", coarse["error"] < 1.1 * fine["error"] and coarse["core-seconds"] < 0.3 * fine["core-seconds"], quick=False,
-              order=order(rows), distance=coarse["error"] / fine["error"], coarse=coarse, fine=fine)]
+        claim("cost", coarse["error"] < 1.1 * fine["error"] and coarse["core-seconds"] < 0.3 * fine["core-seconds"],
+              quick=False, order=order(rows), distance=coarse["error"] / fine["error"], coarse=coarse, fine=fine)]
 
 
 def _largest(rows, method):
@@ -67,12 +69,16 @@ def _largest(rows, method):
 
 
 STUDY = Study(
-    TEXT, "prm/slopes/slope_saturated_loose.prm", entries=dry_slope.STUDY.entries,
-    variants=variants(METHODS, "Mesh/Cell size", [1 / 5, 2 / 15]) + variants(METHODS, "Mesh/Cell size", [1 / 10], FINEST),
+    "prm/slopes/slope_saturated_loose.prm", entries=dry_slope.STUDY.entries,
+    variants=variants(METHODS, "Mesh/Cell size", [1 / 5, 2 / 15])
+    + variants(METHODS, "Mesh/Cell size", [1 / 10], FINEST),
     reference={"Mesh/Cell size": REFERENCE, **METHODS[CANDIDATE]},
     quick_reference={"Mesh/Cell size": 2 / 15, **METHODS["3 x 3 points"]}, default={"method": DEFAULTS},
     quick=lambda labels: labels["h"] > 0.19 and labels["method"] in (DEFAULTS, "single-point", "3 x 3 points", "FLIP"),
-    measure=measure, verdict=verdict, table=lambda rows: table(rows, [method for method in METHODS if method.startswith("FLIP")]),
-    chart=WorkPrecision({DEFAULTS: "AFLIP (the case)", "3 x 3 points": "3 x 3 points\n(recommended)", "2 x 2 points": "2 x 2 points\n(cheapest)",
+    table=lambda rows: table(rows,
+                             [method for method in METHODS
+                              if method.startswith("FLIP")]),
+    chart=WorkPrecision({DEFAULTS: "AFLIP (the case)", "3 x 3 points": "3 x 3 points\n(recommended)",
+                         "2 x 2 points": "2 x 2 points\n(cheapest)",
                          CANDIDATE: "FLIP, 3 x 3 points\n(method of reference)", "no F-bar": "no F-bar (worst)"},
                         "difference from the FLIP run with h = 0.05 m (-)"))

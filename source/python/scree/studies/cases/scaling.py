@@ -7,9 +7,7 @@ import re
 from scree.pictures.tables import name_lines
 from scree.studies.charts import Curves, tick_axis
 from scree.studies.study import Study, Variant, compiled, transfer
-from scree.studies.words import Text
 
-TEXT = Text(__name__)
 QUIET = {"Output/Interval": 100, "Output/Graphics": "none", "Output/Statistics interval": 100}
 SCENES = {"dry slope": ("prm/slopes/slope_dense.prm", (0.004, 0.012), {}),
           "saturated slope": ("prm/slopes/slope_saturated_dense.prm", (0.005, 0.015), {}),
@@ -25,7 +23,8 @@ LATENCY, BANDWIDTH = 1.5e-6, 10e9  # s, bytes/s
 
 
 def environment():
-    return {"LD_PRELOAD": str(compiled("count_mpi.c", "mpicc", "-shared", "-fPIC", "-O2")), "OMPI_MCA_hwloc_base_binding_policy": "none"}
+    return {"LD_PRELOAD": str(compiled("count_mpi.c", "mpicc", "-shared", "-fPIC", "-O2")),
+            "OMPI_MCA_hwloc_base_binding_policy": "none"}
 
 
 def variant(question, scene, ranks, end, entries, base):
@@ -34,20 +33,24 @@ def variant(question, scene, ranks, end, entries, base):
 
 
 def unknowns(cell):
-    return {**transfer("TPIC"), "Mesh/Cell size": cell, "Water/Points per cell": 2, "Time step/Maximum time step": cell * 0.02,
+    return {**transfer("TPIC"), "Mesh/Cell size": cell, "Water/Points per cell": 2,
+            "Time step/Maximum time step": cell * 0.02,
             "Water/Volume correction rate": 0}
 
 
 def variants():
     found = [variant("counts", scene, ranks, end, entries, base)
              for scene, (base, ends, entries) in SCENES.items() for ranks in RANKS for end in ends]
-    found += [variant("two ranks", scene, ranks, end, TIMED[scene][2], TIMED[scene][0]) for scene, end in LONG.items() for ranks in (1, 2)]
-    return found + [variant("unknowns", f"h = {cell:g} m", ranks, 20 * cell * 0.02, unknowns(cell), "prm/water/dam_break.prm")
+    found += [variant("two ranks", scene, ranks, end, TIMED[scene][2], TIMED[scene][0]) for scene,
+              end in LONG.items() for ranks in (1, 2)]
+    return found + [variant("unknowns", f"h = {cell:g} m", ranks, 20 * cell * 0.02, unknowns(cell),
+                            "prm/water/dam_break.prm")
                     for cell in CELLS for ranks in (1, 2, 8)]
 
 
 def measure(run):
-    counts = re.search(r"^mpi: ranks \d+ messages (\d+) (\d+) bytes (\d+) (\d+) collectives (\d+)$", run.log, re.MULTILINE)
+    counts = re.search(r"^mpi: ranks \d+ messages (\d+) (\d+) bytes (\d+) (\d+) collectives (\d+)$", run.log,
+                       re.MULTILINE)
 
     def number(pattern, default=None):
         found = re.search(pattern, run.log, re.MULTILINE)
@@ -55,7 +58,8 @@ def measure(run):
     return {**dict(zip(COUNTS, map(int, counts.groups()))), "wall s": number(r"^total +([\d.e+-]+) "),
             "imbalance": number(r"^imbalance: ([\d.]+)", 1.),
             "points": number(r"/ ([\d.e+-]+) point updates") / run.statistics("Step")[-1],
-            "ghost nodes": number(r"; ghost nodes (\d+)", 0.), "CG iterations": run.columns.get("CG iterations per step", [math.nan])[-1]}
+            "ghost nodes": number(r"; ghost nodes (\d+)", 0.),
+            "CG iterations": run.columns.get("CG iterations per step", [math.nan])[-1]}
 
 
 def per_step(rows, scene):
@@ -98,12 +102,12 @@ def speed_ups_by_model(rows, scene, steps):
     return {ranks: one / modelled(step, ranks, ns, 100, dimensions) for ranks, step in steps.items()}
 
 
-def verdict(rows):
+def verdict(rows, claim):
     counted = {scene: steps for scene in SCENES if len(steps := per_step(rows, scene)) > 1}
     most = max(ranks for steps in counted.values() for ranks in steps)
     collectives = {scene: max(step["collectives"] for step in counted[scene].values())
                    for scene in counted if scene in ("dry slope", "3D column")}
-    claims, claim = [], TEXT.claims(most=most)
+    claims, claim = [], claim.shared(most=most)
     if rows.where(question="two ranks"):
         times = {scene: speed_up(rows, scene) for scene in LONG}
         claims.append(claim("two ranks", min(times.values()) >= 1.8, quick=False, times=times))
@@ -113,18 +117,22 @@ def verdict(rows):
         strong = {f"{scene}, {100 * steps[1]['points']:.1e} points": speed_ups_by_model(rows, scene, steps)[most] / most
                   for scene, steps in counted.items()}
         claims.append(claim("model", True, quick=False, efficiency=strong))
-        coarse, fine = (rows.where(question="unknowns", scene=f"h = {cell:g} m").span["CG iterations"] for cell in (CELLS[0], CELLS[-1]))
-        claims.append(claim("pressure", fine.high < 3 * coarse.low, quick=False, coarse=coarse, fine=fine, coarsest=CELLS[0], finest=CELLS[-1],
+        coarse, fine = (rows.where(question="unknowns", scene=f"h = {cell:g} m").span["CG iterations"]
+                        for cell in (CELLS[0], CELLS[-1]))
+        claims.append(claim("pressure", fine.high < 3 * coarse.low, quick=False, coarse=coarse, fine=fine,
+                            coarsest=CELLS[0], finest=CELLS[-1],
                             n_coarse=2 / CELLS[0] ** 2, n_fine=2 / CELLS[-1] ** 2))
     return claims
 
 
 def table(rows):
     most = max(RANKS)
-    lines = [("scene", "points", "two ranks over one (bound 1.8)", "messages on 64 ranks", "collectives", "kB of the busiest rank")]
+    lines = [("scene", "points", "two ranks over one (bound 1.8)", "messages on 64 ranks", "collectives",
+              "kB of the busiest rank")]
     for scene in SCENES:
         steps = per_step(rows, scene)
-        lines.append((scene, f"{steps[1]['points']:.0f}", f"{speed_up(rows, scene):.2f}", f"{steps[most]['messages of busiest']:.0f}",
+        lines.append((scene, f"{steps[1]['points']:.0f}", f"{speed_up(rows, scene):.2f}",
+                      f"{steps[most]['messages of busiest']:.0f}",
                       f"{steps[most]['collectives']:.0f}", f"{1e-3 * steps[most]['bytes of busiest']:.0f}"))
     return [*lines, (LARGE, "205000", f"{speed_up(rows, LARGE):.2f}", "-", "-", "-")]
 
@@ -139,7 +147,8 @@ def draw(figure, rows):
         messages.plot(ranks[1:], [steps[number]["messages of busiest"] for number in ranks[1:]], **style)
         speeds.plot(ranks, list(speed_ups.values()), label=scene, **style)
     speeds.plot(RANKS, RANKS, color="0.6", linewidth=1, label="ideal")
-    for plot, label in ((messages, "messages of the busiest rank per time step"), (speeds, "speed-up by the model,\n100 times the points")):
+    for plot, label in ((messages, "messages of the busiest rank per time step"),
+                        (speeds, "speed-up by the model,\n100 times the points")):
         plot.set(xscale="log", yscale="log", xlabel="ranks", ylabel=label)
         tick_axis(plot.yaxis)
         plot.set_xticks(RANKS, RANKS, minor=False)
@@ -148,6 +157,6 @@ def draw(figure, rows):
 
 
 STUDY = Study(
-    TEXT, "prm/slopes/slope_dense.prm", variants=variants(), measure=measure, verdict=verdict, environment=environment,
-    quick=lambda labels: labels["question"] == "counts" and labels["ranks"] <= 2 and labels["scene"] in ("dry slope", "dam break"),
-    table=table, chart=Curves(draw, 3.6, timed=True))
+    "prm/slopes/slope_dense.prm", variants=variants(), environment=environment,
+    quick=lambda labels: labels["question"] == "counts" and labels["ranks"] <= 2
+    and labels["scene"] in ("dry slope", "dam break"), chart=Curves(draw, 3.6, timed=True))

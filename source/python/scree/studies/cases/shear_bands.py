@@ -5,9 +5,7 @@ import numpy as np
 
 from scree.studies.charts import Curves
 from scree.studies.study import Study, Variant
-from scree.studies.words import Text
 
-TEXT = Text(__name__)
 BIAXIAL, BANK = "biaxial test", "bank"
 LENGTHS = {BIAXIAL: 0.1, BANK: 0.5}  # m
 SIZES = {BIAXIAL: (0.1, 0.05, 0.025, 0.0125), BANK: (0.25, 6 / 36, 0.125)}  # m
@@ -16,14 +14,16 @@ NS = "ns per point and step"
 
 
 def biaxial(size, length):
-    entries = {"Mesh/Cell size": f"{size:g}", "Soil/Mohr-Coulomb/Nonlocal length": f"{length:g}", "Output/Interval": 0.6}
+    entries = {"Mesh/Cell size": f"{size:g}", "Soil/Mohr-Coulomb/Nonlocal length": f"{length:g}",
+               "Output/Interval": 0.6}
     return Variant({"scene": BIAXIAL, "h": size, "length": length}, entries)
 
 
 def bank(size, length):
     return Variant({"scene": BANK, "h": size, "length": length}, {
         "Mesh/Cell size": f"{size:.15g}", "Mesh/Upper corner": "20, 7", "Soil/Mohr-Coulomb/Cohesion": 4e3,
-        "Soil/Mohr-Coulomb/Softening strain": 0.1, "Soil/Mohr-Coulomb/Tension cut-off": 0, "Soil/Mohr-Coulomb/Residual cohesion": 500,
+        "Soil/Mohr-Coulomb/Softening strain": 0.1, "Soil/Mohr-Coulomb/Tension cut-off": 0,
+        "Soil/Mohr-Coulomb/Residual cohesion": 500,
         "Soil/Mohr-Coulomb/Nonlocal length": f"{length:g}", "Output/Interval": 5}, "prm/slopes/first_slope.prm")
 
 
@@ -48,27 +48,31 @@ def measure(run):
     shortening = -run.statistics("Obstacle Platen displacement y (m)") / 2
     impulse = run.statistics("Obstacle Platen impulse y (N s)")
     first, last = (np.interp(part, shortening, run.time) for part in (0.0095, 0.0105))
-    return {**found, LOAD: (np.interp(last, run.time, impulse) - np.interp(first, run.time, impulse)) / (last - first) / 1e3,
-            PEAK: np.max(run.statistics("Obstacle Platen force y (N)")) / 1e3, WIDTH: band_width(run.points(), run.labels["h"])}
+    return {**found, LOAD: (np.interp(last, run.time, impulse) - np.interp(first, run.time, impulse)) / (last - first)
+            / 1e3,
+            PEAK: np.max(run.statistics("Obstacle Platen force y (N)")) / 1e3,
+            WIDTH: band_width(run.points(), run.labels["h"])}
 
 
 def group(rows, scene, with_length):
     return rows.where(lambda row: row["scene"] == scene and (row["length"] > 0) == with_length).from_coarse()
 
 
-def verdict(rows):
+def verdict(rows, claim):
     own, averaged = group(rows, BIAXIAL, False), group(rows, BIAXIAL, True)
     loads = averaged.where(lambda row: row["h"] <= row["length"] / 2 * 1.0001).span[LOAD]
     apart, coarse, fine, smooth = loads.high / loads.low - 1, own[0], own[-1], averaged[-1]
-    claim = TEXT.claims(coarse=coarse, fine=fine, smooth=smooth)
+    claim = claim.shared(coarse=coarse, fine=fine, smooth=smooth)
     claims = [
         claim("loads", apart <= 0.02, quick=False, worst=True, apart=apart),
         claim("without", fine[LOAD] < 0.9 * coarse[LOAD]),
-        claim("width", fine[WIDTH] < smooth[WIDTH], quick=False, cells=fine[WIDTH] / fine["h"], lengths=smooth[WIDTH] / smooth["length"])]
+        claim("width", fine[WIDTH] < smooth[WIDTH], quick=False, cells=fine[WIDTH] / fine["h"],
+              lengths=smooth[WIDTH] / smooth["length"])]
     without, banks = group(rows, BANK, False), group(rows, BANK, True)
     if len(banks) > 1:
         change, change_without = (of[-1][FRONT] / of[-2][FRONT] - 1 for of in (banks, without))
-        claims += [claim("bank", abs(change) <= 0.03, quick=False, worst=True, change=change, change_without=change_without),
+        claims += [claim("bank", abs(change) <= 0.03, quick=False, worst=True, change=change,
+                         change_without=change_without),
                    claim("front", True, quick=False, without=without[-1][FRONT], front=banks[-1][FRONT])]
     cost = [f"{100 * (row[NS] / other[NS] - 1):.0f} % at l/h = {row['length'] / row['h']:.0f}"
             for row in averaged for other in own.where(h=row["h"])]
@@ -96,8 +100,8 @@ def draw(figure, rows):
 
 
 STUDY = Study(
-    TEXT, "prm/softening/biaxial.prm",
-    variants=[variant(size, length) for scene, variant in ((BIAXIAL, biaxial), (BANK, bank)) for length in (0., LENGTHS[scene])
-              for size in SIZES[scene] if length > 0 or size != 0.0125],
-    measure=measure, verdict=verdict, table=table, chart=Curves(draw),
-    quick=lambda labels: labels["scene"] == BIAXIAL and labels["h"] > 0.04)
+    "prm/softening/biaxial.prm", variants=[variant(size, length) for scene,
+                                           variant in ((BIAXIAL, biaxial), (BANK, bank))
+                                           for length in (0., LENGTHS[scene])
+                                           for size in SIZES[scene] if length > 0 or size != 0.0125],
+    chart=Curves(draw), quick=lambda labels: labels["scene"] == BIAXIAL and labels["h"] > 0.04)

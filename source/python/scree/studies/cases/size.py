@@ -6,9 +6,8 @@ import re
 from scree.pictures.tables import name_lines
 from scree.studies.charts import Curves, tick_axis
 from scree.studies.study import Study, Variant
-from scree.studies.words import Text, filled
+from scree.studies.words import filled
 
-TEXT = Text(__name__)
 NS = "ns per point and step"
 # Of the cases of prm/benchmarks: corner of the box (m), cell size (m) and end (s), and the cell sizes here.
 SCENES = {"elastic 2D": ("elastic_2d", (1.28, 1.28), 0.01, 0.4, (0.0285, 0.01, 0.00285, 0.00143)),
@@ -41,15 +40,16 @@ def bytes_per_point(rows, scene):
     return 1e6 * (large["MB"] - small["MB"]) / (large["points"] - small["points"])
 
 
-def verdict(rows):
+def verdict(rows, claim):
     times = {scene: rows.where(scene=scene).values[NS] for scene in SCENES}
     spreads = {scene: max(found) / min(found) for scene, found in times.items() if found}
-    return [TEXT.claims()("time", max(spreads.values()) <= 1.3, quick=False, spreads=spreads)]
+    return [claim("time", max(spreads.values()) <= 1.3, quick=False, spreads=spreads)]
 
 
 def table(rows):
     return [("scene", "points", "ns per point and time step", "bytes per further point"),
-            *((scene, filled("{:.1e}", found.values["points"]), filled("{:.0f}", found.values[NS]), f"{bytes_per_point(rows, scene):.0f}")
+            *((scene, filled("{:.1e}", found.values["points"]), filled("{:.0f}", found.values[NS]),
+               f"{bytes_per_point(rows, scene):.0f}")
               for scene in SCENES for found in [rows.where(scene=scene)])]
 
 
@@ -64,5 +64,5 @@ def draw(figure, rows):
 
 
 STUDY = Study(
-    TEXT, "prm/benchmarks/elastic_2d.prm", variants=variants(), measure=measure, verdict=verdict,
-    quick=lambda labels: labels["scene"] == "elastic 2D" and labels["h"] > 0.009, table=table, chart=Curves(draw, 3.4, timed=True))
+    "prm/benchmarks/elastic_2d.prm", variants=variants(),
+    quick=lambda labels: labels["scene"] == "elastic 2D" and labels["h"] > 0.009, chart=Curves(draw, 3.4, timed=True))

@@ -7,9 +7,7 @@ import numpy as np
 from scree.studies.charts import StabilityMap
 from scree.studies.measures import classify
 from scree.studies.study import Study, axis, product
-from scree.studies.words import Text
 
-TEXT = Text(__name__)
 CREST, FRICTION = 0.6, 30  # m, degrees
 MOVED, SOIL, WATER = "front moved, mm", "soil, mm/s", "water, mm/s"
 
@@ -33,26 +31,29 @@ def measure(run):
             "volume error": max(run.statistics("Volume error (-)"))}
 
 
-def verdict(rows):
+def verdict(rows, claim):
     stable = rows.where(state="stable")
     flat, steep = rows.where(lambda row: row["angle"] < FRICTION), rows.where(lambda row: row["angle"] > FRICTION)
     drained, under = flat.where(k=rows.largest["k"]), flat.where(lambda row: row["surface"] > CREST)
-    claim = TEXT.claims(rows=rows, stable=stable, flat=flat, steep=steep, drained=drained, under=under)
+    claim = claim.shared(rows=rows, stable=stable, flat=flat, steep=steep, drained=drained, under=under)
     return [
         claim("stable", stable.n == rows.n),
-        claim("stands", flat.largest[MOVED] < 1 and flat.largest[SOIL] < 60 and under.largest[WATER] < 29 and flat.largest[WATER] < 29
+        claim("stands", flat.largest[MOVED] < 1 and flat.largest[SOIL] < 60 and under.largest[WATER] < 29
+              and flat.largest[WATER] < 29
               and drained.largest[MOVED] < 0.45 and drained.largest[WATER] < 10),
         claim("slides", steep.smallest[MOVED] > 10)]
 
 
 STUDY = Study(
-    TEXT, "prm/columns/column_saturated.prm", needs_end=False,
-    entries={"Mesh/Upper corner": "3.2, 1.2", "Mesh/Cell size": 0.1, "Soil/Points per cell": 3, "Water/Points per cell": 3,
+    "prm/columns/column_saturated.prm", needs_end=False,
+    entries={"Mesh/Upper corner": "3.2, 1.2", "Mesh/Cell size": 0.1, "Soil/Points per cell": 3,
+             "Water/Points per cell": 3,
              "End time": 4., "Settling/Maximum time": 1., "Time step/Maximum time step": 2e-3, "Output/Interval": 0.5,
              "Output/Statistics interval": 0.05},
     variants=product(axis("surface", lambda y: {"Water/Region": f"y < {y:g}"}, [0.45, 0.65, 1.]),
-                     axis("k", "Water/Hydraulic conductivity", [1e-1, 1e-4, 1e-8]), axis("angle", slope, [15, 25, 30, 35, 45])),
+                     axis("k", "Water/Hydraulic conductivity", [1e-1, 1e-4, 1e-8]),
+                     axis("angle", slope, [15, 25, 30, 35, 45])),
     quick=lambda labels: labels["surface"] == 1. and labels["k"] in (1e-1, 1e-4) and labels["angle"] in (25, 45),
-    measure=measure, verdict=verdict, default={},
-    chart=StabilityMap("angle", "k", panels=["surface"],
-                       xlabel="angle of the slope (degrees); level of the water surface in m", ylabel="k (m/s)"))
+    default={}, chart=StabilityMap("angle", "k", panels=["surface"],
+                                   xlabel="angle of the slope (degrees); level of the water surface in m",
+                                   ylabel="k (m/s)"))

@@ -8,9 +8,7 @@ import numpy as np
 from scree.studies import measures
 from scree.studies.charts import Curves, legend_above, tick_axis
 from scree.studies.study import Study, Variant, transfer
-from scree.studies.words import Text
 
-TEXT = Text(__name__)
 FLIP, TPIC, CHOSEN = "FLIP, 1/s", "TPIC", "AFLIP, 5"
 FACTORS = (2, 5, 10)
 GRAVITY = 9.81
@@ -24,7 +22,8 @@ COLUMN, STIFF, LARGE = "Mohr-Coulomb column", "Mohr-Coulomb column, E x 10", "Mo
 def scene(name, base, end, cells, entries=lambda h: {}):
     """(labels, entries, base) of each cell size."""
     common = {"End time": end, "Output/Graphics": "none", "Output/Interval": end}
-    return [({"scene": name, "h": h}, {"Mesh/Cell size": h, "Output/Statistics interval": end / 50, **common, **entries(h)},
+    return [({"scene": name, "h": h}, {"Mesh/Cell size": h, "Output/Statistics interval": end / 50, **common,
+                                       **entries(h)},
              f"prm/{base}.prm") for h in cells]
 
 
@@ -90,7 +89,8 @@ def measure(run):
 
     def last(name):
         return float(columns[name][-1]) if name in columns else float(columns[f"Water {name[0].lower()}{name[1:]}"][-1])
-    return {"dissipation": float(dissipation[-1] / (wave or measures.released_energy(run))), "gain": measures.energy_gain(run, wave),
+    return {"dissipation": float(dissipation[-1] / (wave or measures.released_energy(run))),
+            "gain": measures.energy_gain(run, wave),
             "p oscillation": mean("p oscillation (-)"), "stress oscillation": mean("Stress oscillation (-)"),
             "volume error": mean("Volume error (-)"),
             "amplitude lost a period": 1 - (max(kinetic[-41:]) / max(kinetic[:41]))**(1 / 8) if wave else math.nan,
@@ -126,7 +126,8 @@ def cost(rows, transfer, others):
 
 
 def penalties(rows):
-    """{transfer: (penalty, where)} against the transfer of the cases, and against the better one of FLIP and TPIC in each measure."""
+    """{transfer: (penalty, where)} against the transfer of the cases, and against the better one of FLIP and TPIC in
+    each measure."""
     against_now = {f"AFLIP, {alpha}": cost(rows, f"AFLIP, {alpha}", before) for alpha in FACTORS}
     return against_now, {name: cost(rows, name, lambda _: (FLIP, TPIC)) for name in (FLIP, TPIC, *against_now)}
 
@@ -138,7 +139,7 @@ def table(rows):
               for name, (value, place) in against_both.items())]
 
 
-def verdict(rows):
+def verdict(rows, claim):
     def of(scene, transfer):
         row = rows.first(scene=scene, transfer=transfer)
         return row["dissipation"] if row else math.nan
@@ -146,16 +147,18 @@ def verdict(rows):
     change, change_of_flip = (of(LARGE, transfer) / of(COLUMN, transfer) for transfer in (CHOSEN, FLIP))
     against_now, against_both = penalties(rows)
     faster = "AFLIP, 5 sqrt(10)"
-    stiff = {FLIP: of(STIFF, FLIP) / of(COLUMN, FLIP), **{name: of(STIFF, name) / of(COLUMN, CHOSEN) for name in (CHOSEN, faster)}}
+    stiff = {FLIP: of(STIFF, FLIP) / of(COLUMN, FLIP),
+             **{name: of(STIFF, name) / of(COLUMN, CHOSEN) for name in (CHOSEN, faster)}}
     fixed = of(LARGE, "AFLIP, 50/s") / of(COLUMN, CHOSEN)
-    claim = TEXT.claims()
     return [
-        claim("scale", abs(change - 1) < 1e-3 < 0.1 < abs(change_of_flip - 1), change=change, change_of_flip=change_of_flip),
+        claim("scale", abs(change - 1) < 1e-3 < 0.1 < abs(change_of_flip - 1), change=change,
+              change_of_flip=change_of_flip),
         claim("fixed rate", fixed > 1.1, quick=False, factor=fixed),
-        claim("stiffness", abs(stiff[CHOSEN] - stiff[FLIP]) < 0.1 < stiff[faster] - stiff[FLIP], quick=False, flip=stiff[FLIP],
-              chosen=stiff[CHOSEN], faster=stiff[faster]),
+        claim("stiffness", abs(stiff[CHOSEN] - stiff[FLIP]) < 0.1 < stiff[faster] - stiff[FLIP], quick=False,
+              flip=stiff[FLIP], chosen=stiff[CHOSEN], faster=stiff[faster]),
         claim("against the cases", min(against_now, key=lambda name: against_now[name][0]) == CHOSEN, quick=False),
-        claim("against the better one", min(against_both, key=lambda name: against_both[name][0]) == FLIP, quick=False, worst=True)]
+        claim("against the better one", min(against_both, key=lambda name: against_both[name][0]) == FLIP, quick=False,
+              worst=True)]
 
 
 def draw(figure, rows):
@@ -164,7 +167,8 @@ def draw(figure, rows):
     for axes, measure in zip(plots, MEASURES):
         for name, style in ((FLIP, "ks"), (TPIC, "C3^"), (CHOSEN, "C0o")):
             values = {(row["scene"], round(row["h"], 4)): row[measure] for row in rows if row["transfer"] == name}
-            axes.plot([values.get(place, math.nan) for place in places], range(len(places)), style, label=name, markersize=5)
+            axes.plot([values.get(place, math.nan) for place in places], range(len(places)), style, label=name,
+                      markersize=5)
         axes.set(xscale="log")
         axes.set_title(TITLES[measure], fontsize=9)
         tick_axis(axes.xaxis)
@@ -175,6 +179,6 @@ def draw(figure, rows):
 
 
 STUDY = Study(
-    TEXT, "prm/columns/mohr_coulomb_collapse.prm", variants=variants(), measure=measure, verdict=verdict,
+    "prm/columns/mohr_coulomb_collapse.prm", variants=variants(),
     quick=lambda labels: labels["scene"] in (COLUMN, LARGE) and labels["transfer"] in (FLIP, TPIC, CHOSEN),
-    default={"transfer": FLIP}, table=table, chart=Curves(draw, 5.4))
+    default={"transfer": FLIP}, chart=Curves(draw, 5.4))
