@@ -5,7 +5,8 @@ import re
 import sys
 
 from scree.studies import pages, run
-from scree.studies.words import Claim
+from scree.studies.rows import Rows, Span
+from scree.studies.words import Claim, Claims, filled, tabled
 
 faults = []
 
@@ -60,6 +61,17 @@ check("order of the results", pages.results(Study, [], claims) == ["Limited.", "
 check("claims that hold", pages.n_held(claims) == "2 of 4")
 check("a sentence a line", pages.sentences("One. Two et al. 2005 are there. 3 are not.", "- ", "  ") == ["- One.", "  Two et al. 2005 are there.", "  3 are not."])
 check("no line begins a list", all(not pages.MARKUP.match(line.split()[0]) for line in pages.filled("word - " * 60)))
+
+rows = Rows([{"kind": "a", "cells": 4, "gain": 0.02}, {"kind": "b", "cells": 2, "gain": 0.1}, {"kind": "a", "cells": 2, "gain": 0.01}])
+check("rows", rows.where(kind="a").values["gain"] == [0.02, 0.01] and rows.where(lambda row: row["gain"] > 0.05).n == 1 and rows.first(kind="c") is None
+      and rows.with_largest("gain")["kind"] == "b" and rows.span["gain"] == Span(0.01, 0.1))
+check("rows from coarse to fine", {key: [row["h"] for row in of] for key, of in rows.grouped("kind").items()} == {("a",): [0.5, 0.25], ("b",): [0.5]})
+for form, value, text in (("{:.1f %}", 0.123, "12.3 %"), ("{:g mm}", 0.0025, "2.5"), ("{:.0f %}", Span(0.1, 0.2), "10 to 20 %"), ("{:.1f}", [1, 2], "1.0, 2.0"),
+                          ("{:.2f}", {"x": 1, "y": 2}, "1.00 (x), 2.00 (y)"), ("{[a b, %]:.1f}", {"a b, %": 1}, "1.0"), ("{0.largest[gain]}", rows, "0.1")):
+    check(f"{form} gives {filled(form, value)}, not {text}", filled(form, value) == text)
+claim = Claims({"gain": "At most {rows.largest[gain]:g} of {n}."}).shared(rows=rows)
+check("a claim with its sentence", claim("gain", 1, quick=False, n=3) == Claim("At most 0.1 of 3.", True, False))
+check("a table", tabled({"kind": "{[kind]}", "gain": "{[gain]:.0f %}"}, by="gain")(rows[:2]) == [("kind", "gain"), ("a", "2 %"), ("b", "10 %")])
 
 print(f"{len(run.names_of_studies())} pages")
 sys.exit("\n".join(faults) or 0)

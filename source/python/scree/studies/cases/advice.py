@@ -83,8 +83,8 @@ def verdict(rows, claim):
     costs = [off(ratio) for ratio in rows.values[COST]]
     worst, worst_steps = (max(rows, key=lambda row: off(row[name])) for name in (COST, STEPS))
     new = rows.where(kind="new")
-    within = {name: sum(off(ratio) <= FACTOR for ratio in of.values[COST]) for name,
-              of in (("all", rows), ("new", new))}
+    within = {name: sum(off(ratio) <= FACTOR for ratio in of.values[COST])
+              for name, of in (("all", rows), ("new", new))}
     most_steps = off(worst_steps[STEPS])
     claim = claim.shared(rows=rows, new=new, factor=FACTOR, within=within, worst=worst, worst_steps=worst_steps)
     return [claim("cost", max(costs) <= FACTOR, quick=False, most=max(costs), mean=mean_off(rows),
@@ -97,8 +97,8 @@ def table(rows):
               "new case": rows.where(kind="new")}
     return [("compared", "cases", "predicted over measured", "geometric mean of the factor",
              "predicted steps over measured"),
-            *((name, str(of.n), f"{of.span[COST]:.2f}", f"{mean_off(of):.2f}", f"{of.span[STEPS]:.2f}") for name,
-              of in groups.items() if of)]
+            *((name, str(of.n), f"{of.span[COST]:.2f}", f"{mean_off(of):.2f}", f"{of.span[STEPS]:.2f}")
+              for name, of in groups.items() if of)]
 
 
 def draw(figure, rows):

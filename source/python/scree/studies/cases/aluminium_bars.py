@@ -54,6 +54,11 @@ def measure(run):
             / np.ptp(run.statistics("Potential energy (J)"))}
 
 
+def base_entries(base):
+    kind, diameter = BASES[base]
+    return {"Boundaries/Bottom": kind, "Soil/Mohr-Coulomb/Grain diameter": diameter}
+
+
 def verdict(rows, claim):
     claims, claim = [], claim.shared(last=LAST)
     for base in BASES:
@@ -111,8 +116,5 @@ def draw(figure, found, _):
 STUDY = Study(
     "prm/columns/aluminium_bars.prm", chart=RunCurves(curves, draw, 3.6),
     entries={"Output/Graphics": "points", "Output/Interval": "1"},
-    variants=product(axis("h", "Mesh/Cell size", [0.01, 0.005, 0.0025]),
-                     axis("base", lambda base: {"Boundaries/Bottom": BASES[base][0],
-                                                "Soil/Mohr-Coulomb/Grain diameter": BASES[base][1]},
-                          list(BASES))),
+    variants=product(axis("h", "Mesh/Cell size", [0.01, 0.005, 0.0025]), axis("base", base_entries, list(BASES))),
     quick=lambda labels: labels["h"] == 0.01)

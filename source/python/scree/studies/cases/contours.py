@@ -40,9 +40,8 @@ def measure(run):
 
 def verdict(rows, claim):
     of = {f_bar: rows.where({"F-bar": f_bar}) for f_bar in TITLES}
-    oscillation, largest, gained = (name + EARLY
-                                    for name in ("oscillation", "largest effective stress (kPa)",
-                                                 "energy gained over released"))
+    names = "oscillation", "largest effective stress (kPa)", "energy gained over released"
+    oscillation, largest, gained = (name + EARLY for name in names)
 
     def below(column, f_bar):
         """Whether a column is smaller with modified F-bar in each slope."""

@@ -67,8 +67,8 @@ def table(rows):
 
 def verdict(rows, claim):
     claims = []
-    if not all(len(group(rows, aspect, *treatment)) == len(sizes) for aspect,
-               sizes in SIZES.items() for treatment in TREATMENTS):
+    if not all(len(group(rows, aspect, *treatment)) == len(sizes)
+               for aspect, sizes in SIZES.items() for treatment in TREATMENTS):
         slower = [group(rows, 1, *treatment)[0][RUN_OUT] for treatment in TREATMENTS]
         return [claim("short", slower == sorted(slower))]
     for kind, friction in TREATMENTS:

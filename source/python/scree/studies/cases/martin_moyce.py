@@ -94,8 +94,8 @@ def compared(rows):
 
 
 def curves(run):
-    return {f"{name}, {run.labels['h']:g} m": points for name,
-            points in (("front", front(run)), ("height", height(run)))}
+    return {f"{name}, {run.labels['h']:g} m": points
+            for name, points in (("front", front(run)), ("height", height(run)))}
 
 
 def draw(figure, found, _):
@@ -118,7 +118,7 @@ def draw(figure, found, _):
 
 
 STUDY = Study(
-    "prm/water/dam_break.prm", entries={"End time": 1.35, "Mesh/Upper corner": "10, 2.4",
-                                        "Output/Graphics": "points"},
+    "prm/water/dam_break.prm",
+    entries={"End time": 1.35, "Mesh/Upper corner": "10, 2.4", "Output/Graphics": "points"},
     variants=axis("h", lambda h: {"Mesh/Cell size": h, "Time step/Maximum time step": 0.04 * h}, [0.1, 0.05, 0.025]),
     quick=lambda labels: labels["h"] >= 0.05, chart=RunCurves(curves, draw, 3.4))

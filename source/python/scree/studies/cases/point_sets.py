@@ -78,8 +78,8 @@ def verdict(rows, claim):
     claims = [claim("cost", all(cost < 1.14 for cost in costs.values()), quick=False)]
     whole = rows.where(lambda row: row["end"] > 1)
     if not whole:
-        return claims + [claim("mass", all(abs(change) < 1e-12
-                                           for change in rows.where(points="double").values[WATER]))]
+        changes = rows.where(points="double").values[WATER]
+        return claims + [claim("mass", all(abs(change) < 1e-12 for change in changes))]
     sand = {name: pair(rows, name, True) for name in ("dense", "loose")}
     shares = list(filter(math.isfinite, whole.values["pressure share (%)"]))
     fluid, stopped = pair(rows, "Mohr-Coulomb", True)
@@ -88,8 +88,8 @@ def verdict(rows, claim):
         return " and ".join(f"{value(double, single):{form}} ({name})" for name, (double, single) in sand.items())
 
     def percent(value, form):
-        return " and ".join(f"{100 * value(double, single):{form}} % ({name})" for name,
-                            (double, single) in sand.items())
+        return " and ".join(f"{100 * value(double, single):{form}} % ({name})"
+                            for name, (double, single) in sand.items())
 
     return claims + [
         claim("pressure", max(shares) < 30, shares=Span.of(shares)),

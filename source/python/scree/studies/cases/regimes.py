@@ -27,8 +27,8 @@ SUBMERGED = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-12]
 
 def group(height, young, conductivity):
     """Time of drainage over time of motion, -."""
-    return height**2 * WATER * GRAVITY / (conductivity * oedometric_modulus(young, POISSON)) / math.sqrt(height
-                                                                                                         / GRAVITY)
+    drainage = height**2 * WATER * GRAVITY / (conductivity * oedometric_modulus(young, POISSON))
+    return drainage / math.sqrt(height / GRAVITY)
 
 
 def common(height, cells, length, top):

@@ -110,8 +110,8 @@ def verdict(rows, claim):
             other = limits[scene, soil, RECOMMENDED[scene]]
             claims.append(claim("fixed", limit.missing > 1.5 * other.missing, tabled=True, other=other,
                                 **values((scene, soil, treatment))))
-    dry, wet = (max((abs(tip.last_change) for (scene, _, _),
-                     tip in tips.items() if (scene in (COLUMN, SLOPE)) == is_dry), default=math.nan)
+    dry, wet = (max((abs(tip.last_change)
+                     for (scene, _, _), tip in tips.items() if (scene in (COLUMN, SLOPE)) == is_dry), default=math.nan)
                 for is_dry in (True, False))
     return [*claims, claim("tip", dry < 0.03 < wet, quick=False, dry=dry, wet=wet)]
 
@@ -146,7 +146,7 @@ def draw(figure, rows):
 
 
 STUDY = Study(
-    "prm/slopes/slope_dense.prm", variants=[variant(scene, soil, treatment, n) for (scene, soil, treatment),
-                                            sizes in CELLS_PER_METRE.items() for n in sizes],
+    "prm/slopes/slope_dense.prm",
+    variants=[variant(*curve, n) for curve, sizes in CELLS_PER_METRE.items() for n in sizes],
     quick=lambda labels: labels["scene"] == COLUMN and labels["soil"] == "dense" and labels["treatment"] != FRICTION
     and labels["h"] > 0.06, chart=Curves(draw, 5.4))

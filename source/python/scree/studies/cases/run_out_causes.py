@@ -36,8 +36,8 @@ measure = run_out.measure
 
 def pairs(rows):
     """{(scene, base, what is changed): (row of the largest cells, row of the smallest)}."""
-    return {key: (group[0], group[-1]) for key,
-            group in rows.grouped("scene", "treatment", "changed").items() if len(group) > 1}
+    return {key: (group[0], group[-1])
+            for key, group in rows.grouped("scene", "treatment", "changed").items() if len(group) > 1}
 
 
 def advance(pair, percent):
@@ -71,8 +71,7 @@ def verdict(rows, claim):
 
 def draw(figure, rows):
     both = pairs(rows)
-    groups = {f"dense column, base: {base}": {key[2]: pair for key,
-                                              pair in both.items() if key[:2] == (run_out.COLUMN, base)}
+    groups = {f"dense column, base: {base}": {name: pair for (_, of, name), pair in both.items() if of == base}
               for base in BASES}
     groups = {title: group for title, group in groups.items() if group}
     for axes, (title, group) in zip(figure.subplots(1, len(groups), squeeze=False, sharex=True)[0], groups.items()):

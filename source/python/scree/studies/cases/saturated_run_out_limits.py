@@ -31,8 +31,8 @@ def variant(scene, base, transfer, cells):
 
 
 def variants():
-    return [variant(scene, base, transfer, cells) for scene,
-            base in BASES for transfer in TRANSFERS for cells in SIZES[scene]]
+    return [variant(scene, base, transfer, cells)
+            for scene, base in BASES for transfer in TRANSFERS for cells in SIZES[scene]]
 
 
 def measure(run):

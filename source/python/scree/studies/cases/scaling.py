@@ -41,8 +41,8 @@ def unknowns(cell):
 def variants():
     found = [variant("counts", scene, ranks, end, entries, base)
              for scene, (base, ends, entries) in SCENES.items() for ranks in RANKS for end in ends]
-    found += [variant("two ranks", scene, ranks, end, TIMED[scene][2], TIMED[scene][0]) for scene,
-              end in LONG.items() for ranks in (1, 2)]
+    found += [variant("two ranks", scene, ranks, end, TIMED[scene][2], TIMED[scene][0])
+              for scene, end in LONG.items() for ranks in (1, 2)]
     return found + [variant("unknowns", f"h = {cell:g} m", ranks, 20 * cell * 0.02, unknowns(cell),
                             "prm/water/dam_break.prm")
                     for cell in CELLS for ranks in (1, 2, 8)]

@@ -100,8 +100,7 @@ def draw(figure, rows):
 
 
 STUDY = Study(
-    "prm/softening/biaxial.prm", variants=[variant(size, length) for scene,
-                                           variant in ((BIAXIAL, biaxial), (BANK, bank))
-                                           for length in (0., LENGTHS[scene])
-                                           for size in SIZES[scene] if length > 0 or size != 0.0125],
+    "prm/softening/biaxial.prm",
+    variants=[variant(size, length) for scene, variant in ((BIAXIAL, biaxial), (BANK, bank))
+              for length in (0., LENGTHS[scene]) for size in SIZES[scene] if length > 0 or size != 0.0125],
     chart=Curves(draw), quick=lambda labels: labels["scene"] == BIAXIAL and labels["h"] > 0.04)

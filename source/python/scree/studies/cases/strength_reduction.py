@@ -41,9 +41,8 @@ def clay(body, strength):
 def section(crest, run, depth, toe, cell):
     """Entries of box and slope, lengths in m: the crest, the slope, the depth below the toe, the ground in front of
     it."""
-    face = f"({crest + run:g} - x)*{HEIGHT / run:.12g}" if run else None
-    region = f"y < {HEIGHT + depth:g} && (y < {depth:g} || " + (f"y < {depth:g} + {face})"
-                                                                if face else f"x < {crest:g})")
+    face = f"y < {depth:g} + ({crest + run:g} - x)*{HEIGHT / run:.12g}" if run else f"x < {crest:g}"
+    region = f"y < {HEIGHT + depth:g} && (y < {depth:g} || {face})"
     width = math.ceil((crest + run + toe) / cell) * cell
     return {"Mesh/Upper corner": f"{width:g}, {HEIGHT + depth + 2:g}", "Mesh/Cell size": cell, "Soil/Region": region}
 

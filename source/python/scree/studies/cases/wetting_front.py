@@ -67,9 +67,8 @@ def elastic_front(k, young_modulus=MODULUS, n_cells=100):
         wet = np.clip((front - upper_faces) / width, 0, 1)
         flux = pond_velocity - v
         slip = flux / porosity
-        convected = slip / ratio * np.concatenate([[0], np.diff(v + slip) / width]) - slip * (porosity
-                                                                                              - before) / (step
-                                                                                                           * porosity)
+        convected = slip / ratio * np.concatenate([[0], np.diff(v + slip) / width])
+        convected -= slip * (porosity - before) / (step * porosity)
         push = convected - GRAVITY + GRAVITY / k * flux  # -dp/dx over rho_w, but for dv_s/dt (1 - 1/n) and dV/dt / n
         lever = wet * ratio * (1 - porosity) * WATER
         mass = (1 - POROSITY) * GRAINS - lever * (1 - 1 / porosity)
