@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """study_pages.py: the pages of the studies and their list are what the committed tables say, sections begin with what holds and end with all that does not, and have no long lines."""
 
+import pathlib
 import re
 import sys
 
@@ -23,6 +24,9 @@ def check_lines(file, text):
 
 for name in run.names_of_studies():
     study, topic = run.study_of(name), pages.topic_of(name)
+    module = pathlib.Path(run.__file__).with_name("cases") / f"{name}.py"
+    for sentence in study.text.sentences:
+        check(f"{study.text.file.name}: no claim of {module.name} has the sentence {sentence}", f'"{sentence}"' in module.read_text(encoding="utf-8"))
     rows = run.read_table(run.PAGES / f"{name}.csv")
     failed = [claim for claim in study.verdict(rows) if not claim.holds]
     page = (run.PAGES / f"{topic}.md").read_text(encoding="utf-8")

@@ -100,6 +100,8 @@ class Claims:
         return Claims(self.sentences, {**self.values, **values})
 
     def __call__(self, name, holds, quick=True, worst=False, tabled=False, **values):
+        if name not in self.sentences:
+            raise KeyError(f"No sentence for the claim {name}; there are: {', '.join(self.sentences) or 'none'}.")
         return Claim(filled(self.sentences[name], **self.values, **values), bool(holds), quick, worst, tabled)
 
 
