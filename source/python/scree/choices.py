@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Tables and lists of numbers of doc/choosing.md and doc/studies/defaults.md, from the tables of the studies and doc/verification/benchmarks.csv; times
-of prm/README.md, the last column of its tables, from the study `advice`.
+"""Tables and lists of numbers of doc/choosing.md and doc/studies/defaults.md, from the tables of the studies and
+doc/verification/benchmarks.csv; times of prm/README.md, the last column of its tables, from the study `advice`.
 
 PYTHONPATH=source/python python3 -m scree.choices
 
-Writes them between the lines `<!-- numbers: NAME -->` and `<!-- end -->`; their words are those of doc/studies/intro/choices.md. A number that no table has
-is `quoted` from the page that has it, and that page must contain it. Deviations of fronts are relative to the displacement of the front, on every base.
+Writes them between the lines `<!-- numbers: NAME -->` and `<!-- end -->`; their words are those of
+doc/studies/intro/choices.md. A number that no table has is `quoted` from the page that has it, and that page must
+contain it. Deviations of fronts are relative to the displacement of the front, on every base.
 """
 
 import functools
@@ -82,7 +83,8 @@ def times(value):
 
 
 class Numbers(Filling):
-    """`percent`, of a Span "1.0 to 2.0 %"; `mark` of a deviation, `times` of a ratio to the recommended method, `gain` of energy."""
+    """`percent`, of a Span "1.0 to 2.0 %"; `mark` of a deviation, `times` of a ratio to the recommended method, `gain`
+    of energy."""
     FORMS = {"percent": percent, "+percent": lambda value: percent(value, True), "times": times,
              "mark": lambda value: f"{word(value, (GOOD, LIMITED))}, {percent(value)}",
              "gain": lambda value: f"{'fails' if value > GAIN else 'good'}, gain {percent(value)}"}
@@ -105,7 +107,8 @@ def reached(series, bound):
 
 
 class Series:
-    """Deviations by H/h. As text: `10 %`: the H/h from which on they are within it; `20, 40`: those at H/h; `=20`: that one alone; "": all."""
+    """Deviations by H/h. As text: `10 %`: the H/h from which on they are within it; `20, 40`: those at H/h; `=20`: that
+    one alone; "": all."""
 
     def __init__(self, values):
         self.values = values
@@ -134,7 +137,8 @@ class Series:
 
 
 def start(scene, part):
-    """The x below which this part of the mass lies at the start: columns of 1 m x 1 m, slopes of 2 m with a crest of 2 m and 45 degrees."""
+    """The x below which this part of the mass lies at the start: columns of 1 m x 1 m, slopes of 2 m with a crest of
+    2 m and 45 degrees."""
     return part if scene == run_out.COLUMN else 4 - math.sqrt(2 * 6 * (1 - part))
 
 
@@ -166,6 +170,11 @@ def lacks(study, length, reference, sizes):
     return {round(length / h): fit.lack(h) for h in sizes}
 
 
+def worst_fall(chosen):
+    """Of ponds that sink into sand, against the exact solution."""
+    return max(abs(fall - 1) for fall in chosen.values["fall/exact"])
+
+
 def minutes(study, n, **labels):
     """Core-minutes of the run with these labels, or of the slowest one, and its H/h."""
     value = with_labels(study, labels).largest["core-seconds"] / 60
@@ -178,9 +187,11 @@ def series():
     wet = saturated_run_out_limits.curves(rows("saturated_run_out_limits"))["slope", "friction", "TPIC"]
     measured = float(benchmark("front x/a at T = 2.98")["reference"])
     slopes = strength_reduction.scenes_of(rows("strength_reduction"))
-    loaded = quoted("verification/consolidation_and_seepage.md", "| the same, Kozeny-Carman | - | **1.096**; 1.037 |", "1.096")
+    loaded = quoted("verification/consolidation_and_seepage.md", "| the same, Kozeny-Carman | - | **1.096**; 1.037 |",
+                    "1.096")
     found = {
-        "safety": {n: max(abs(strength_reduction.deviation(row)) for row in slopes.where({"H/h": n})) for n in (10, 20)},
+        "safety": {n: max(abs(strength_reduction.deviation(row)) for row in slopes.where({"H/h": n}))
+                   for n in (10, 20)},
         "columns": worst(*(fronts(run_out.COLUMN, soil, low) for soil in ("dense", "loose"))),
         "slopes": worst(*(fronts(run_out.SLOPE, soil, low) for soil in ("dense", "loose"))),
         "wet_slopes": worst(fronts(run_out.SATURATED, "loose", held), fronts(run_out.PERMEABLE, "dense", held)),
@@ -192,7 +203,7 @@ def series():
         "dam_break": lacks("dam_break", 2, 1 / 60, (0.1, 0.05, 0.033333)),
         # The run-out of the dam break over the measured one, from x/a = 1 on.
         "tips": {round(2 / row["h"]): (row["Z at T = 2.98"] - 1) / (measured - 1) - 1 for row in rows("martin_moyce")},
-        "pond": {round(0.2 / h): max(abs(fall - 1) for fall in with_labels("wetting_front", {"default": True, "h": h}).values["fall/exact"])
+        "pond": {round(0.2 / h): worst_fall(with_labels("wetting_front", {"default": True, "h": h}))
                  for h in (0.1, 0.05, 0.025, 0.0125)},
         "waves": errors("bar", 1, "TPIC"), "manufactured": errors("manufactured", 1, "TPIC")}
     return {name: Series(values) for name, values in found.items()}
@@ -207,9 +218,11 @@ def costs():
             "wet_slopes": minutes("run_out", 40, **wet), "held": minutes("run_out", 40, soil="dense", **wet),
             "loose": minutes("saturated_run_out_limits", 40, scene="slope", transfer="TPIC", cells=40.),
             "fixed_slope": minutes("dry_slope", 30, method=DEFAULTS, h=0.066667),
-            "fixed_wet": minutes("saturated_slope", 20, method=DEFAULTS, h=0.1), "grains": minutes("run_out_limits", 24, **grains),
+            "fixed_wet": minutes("saturated_slope", 20, method=DEFAULTS, h=0.1),
+            "grains": minutes("run_out_limits", 24, **grains),
             "bars": minutes("aluminium_bars", 40, base="fixed, mu(I)", h=0.0025),
-            "terzaghi": minutes("terzaghi", 20, method=DEFAULTS, h=0.05), "large": minutes("large_strain", 20, method=DEFAULTS, h=0.05),
+            "terzaghi": minutes("terzaghi", 20, method=DEFAULTS, h=0.05),
+            "large": minutes("large_strain", 20, method=DEFAULTS, h=0.05),
             "dam_break": minutes("dam_break", 20, method=DEFAULTS, h=0.1), "tips": minutes("martin_moyce", 80, h=0.025),
             "impact": minutes("impact", 10, h=0.05), "pond": minutes("wetting_front", 4, h=0.05, default=True),
             "waves": minutes("bar", 32, method="TPIC", h=0.03125)}
@@ -223,14 +236,18 @@ def impacts(quantity):
 
 def single_values():
     """Deviations of scenes with one size of cells, and what stands beside them."""
-    wet = [group for (scene, _, _), group in run_out.curves(rows("run_out")).items() if scene in (run_out.SATURATED, run_out.PERMEABLE)]
-    at_start, measured = start(run_out.SLOPE, 0.99), float(benchmark("front, inertial friction, h = 2.5 mm")["reference"])
+    wet = [group for (scene, _, _), group in run_out.curves(rows("run_out")).items()
+           if scene in (run_out.SATURATED, run_out.PERMEABLE)]
+    at_start = start(run_out.SLOPE, 0.99)
+    measured = float(benchmark("front, inertial friction, h = 2.5 mm")["reference"])
     bars = rows("aluminium_bars").where(base="fixed, mu(I)")
     heap = "Fronts of undrained collapses deviate by -5.5 to +18.5 %"
-    mountain = "The cell size changes the reach by 20 m, the area by 3 % and the largest thickness of the deposit by 33 %"
+    mountain = ("The cell size changes the reach by 20 m, the area by 3 % "
+                "and the largest thickness of the deposit by 33 %")
     return {
-        # Largest change of the front of 99 % at the last refinement of saturated slopes on friction, over its displacement.
-        "tip_change": max(abs(fine[run_out.TIP] - coarse[run_out.TIP]) / (fine[run_out.TIP] - at_start) for *_, coarse, fine in wet),
+        # Of the front of 99 % at the last refinement of saturated slopes on friction, over its displacement.
+        "tip_change": max(abs(fine[run_out.TIP] - coarse[run_out.TIP]) / (fine[run_out.TIP] - at_start)
+                          for *_, coarse, fine in wet),
         "fixed_wet": one("saturated_slope", method=DEFAULTS, h=0.1)["error"],
         "sand_and_beads": Span.of(float(row["deviation_percent"]) / 100 for row in benchmarks.read()
                                   if row["quantity"].startswith("run-out/L0, a = ")),
@@ -250,7 +267,8 @@ FLIP = "FLIP, 1/s"
 
 
 def rate_ratio(names):
-    """"scene; transfer": the worst mean ratio to FLIP over the meshes of dissipation and of the oscillations, from the study of the rates."""
+    """"scene; transfer": the worst mean ratio to FLIP over the meshes of dissipation and of the oscillations, from the
+    study of the rates."""
     scene, method = names.split("; ")
 
     def mean(column):
@@ -268,23 +286,30 @@ def stable(study, **labels):
 
 def of_methods():
     """Ratios of methods to the defaults, and the worst numbers of some maps."""
-    slope, dam = (LimitFit(rows(study), h).against_limit(rows(study)) for study, h in (("dry_slope", 0.04), ("dam_break", 1 / 60)))
+    slope, dam = (LimitFit(rows(study), h).against_limit(rows(study))
+                  for study, h in (("dry_slope", 0.04), ("dam_break", 1 / 60)))
     wet, mud, small, bar, mms = map(rows, ("saturated_slope", "large_strain", "terzaghi", "bar", "manufactured"))
     finest = one("manufactured", method="TPIC", h=min(curve(mms, "TPIC")))["error"]
     two_points = rows("wetting_front").where(points="2 x 2")
-    pond = {points: max(abs(fall - 1) for fall in rows("wetting_front").where(points=points).values["fall/exact"]) for points in ("2 x 2", "4 x 4")}
+    pond = {points: worst_fall(rows("wetting_front").where(points=points)) for points in ("2 x 2", "4 x 4")}
     return {
-        "slope": ratios(slope), "slope_stress": ratios(slope, "mean oscillation"), "rates": Lookup(rate_ratio), "wet": ratios(wet),
-        "wet_stress": ratios(wet, "mean oscillation"), "mud": ratios(mud), "small": ratios(small), "dam": ratios(dam), "bar": ratios(bar),
-        "bar_tpic": Lookup(lambda method: ratio(bar, method, other="TPIC")), "mms": Lookup(lambda method: at_finest(mms, method) / finest),
+        "slope": ratios(slope), "slope_stress": ratios(slope, "mean oscillation"), "rates": Lookup(rate_ratio),
+        "wet": ratios(wet),
+        "wet_stress": ratios(wet, "mean oscillation"), "mud": ratios(mud), "small": ratios(small), "dam": ratios(dam),
+        "bar": ratios(bar),
+        "bar_tpic": Lookup(lambda method: ratio(bar, method, other="TPIC")),
+        "mms": Lookup(lambda method: at_finest(mms, method) / finest),
         "slope_tpic": max(ratio(slope, "TPIC"), rate_ratio("dry slope; TPIC")),
         "wet_points": max(ratio(wet, "2 x 2 points", name) for name in ("error", "median p oscillation")),
-        **{f"{name}_time": ratio(of, "3 x 3 points", "core-seconds") for name, of in (("slope", slope), ("wet", wet), ("dam", dam), ("mud", mud))},
+        **{f"{name}_time": ratio(of, "3 x 3 points", "core-seconds")
+           for name, of in (("slope", slope), ("wet", wet), ("dam", dam), ("mud", mud))},
         "single_gain": max(row["energy gained"] for row in wet if row["method"] == "single-point"),
         "peak": Lookup(lambda method: wet.where(method=method).largest["largest effective stress, kPa"]),
-        "thrown": stable("single_point", points="double"), "made": rows("single_point").where(points="single").largest["error"],
+        "thrown": stable("single_point", points="double"),
+        "made": rows("single_point").where(points="single").largest["error"],
         "low": stable("low_stress"), "oscillation": rows("low_stress").largest["oscillation of p'"],
-        "air": rows("air_gap").largest["air left, cells"], "pond_gain": two_points.largest["gain"], "pond_of_2": pond["2 x 2"] / pond["4 x 4"],
+        "air": rows("air_gap").largest["air left, cells"], "pond_gain": two_points.largest["gain"],
+        "pond_of_2": pond["2 x 2"] / pond["4 x 4"],
         "water": one("point_sets", soil="dense", points="single", end=12.)["change of water mass"],
         "gained": rows("contours").where({"F-bar": "standard"}).largest["energy gained over released to 0.4 s"]}
 
@@ -293,8 +318,10 @@ def limits_of_g():
     """The limits of drained and undrained analysis."""
     table = rows("regimes")
     load, air, water = (regimes.thresholds(table, scene, "undrained") for scene in ("load", "collapse", "submerged"))
-    return {"low_g": regimes.number(min(regimes.thresholds(table, "load", "drained"))), "high_g": regimes.number(max(load + air + water)),
-            "load_g": regimes.span(load), "air_g": regimes.span(air), "water_g": regimes.span(water), "shorter": regimes.shorter_in_air(table)}
+    return {"low_g": regimes.number(min(regimes.thresholds(table, "load", "drained"))),
+            "high_g": regimes.number(max(load + air + water)),
+            "load_g": regimes.span(load), "air_g": regimes.span(air), "water_g": regimes.span(water),
+            "shorter": regimes.shorter_in_air(table)}
 
 
 @functools.lru_cache
@@ -326,7 +353,9 @@ def time_of(name, rows):
         return None
     if by_hand := BY_HAND.get(name):
         seconds, simulated = by_hand["seconds"], by_hand["simulated"]
-        return f"~{rounded(float(seconds) * float(entries['End time']) / float(simulated))} *" if simulated else f"{seconds} *"
+        if not simulated:
+            return f"{seconds} *"
+        return f"~{rounded(float(seconds) * float(entries['End time']) / float(simulated))} *"
     if name not in rows:
         return "-"
     row = rows[name]
@@ -336,7 +365,8 @@ def time_of(name, rows):
 
 
 def with_times(text):
-    """The page with its times made again. Of a case whose first part was run it is "~" and the time in proportion; runs by hand have "*"."""
+    """The page with its times made again. Of a case whose first part was run it is "~" and the time in proportion; runs
+    by hand have "*"."""
     times = {row["case"]: row for row in rows("advice")}
 
     def cell(match):
