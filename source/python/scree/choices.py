@@ -18,6 +18,7 @@ from scree.command import ROOT
 from scree.studies import run as studies
 from scree.studies.cases import regimes, run_out, run_out_limits, saturated_run_out_limits, strength_reduction
 from scree.studies.limits import MASS, TIP, Limit
+from scree.studies.measures import stable_of
 from scree.studies.precision import DEFAULTS, LimitFit, at_finest, curve, ratio, ratios
 from scree.studies.rows import Lookup, Span
 from scree.studies.study import reference_rows
@@ -279,11 +280,6 @@ def rate_ratio(names):
     return max(map(mean, ("dissipation", "p oscillation", "stress oscillation")))
 
 
-def stable(study, **labels):
-    chosen = with_labels(study, labels)
-    return f"{chosen.where(state='stable').n} of {chosen.n}"
-
-
 def of_methods():
     """Ratios of methods to the defaults, and the worst numbers of some maps."""
     slope, dam = (LimitFit(rows(study), h).against_limit(rows(study))
@@ -305,9 +301,9 @@ def of_methods():
            for name, of in (("slope", slope), ("wet", wet), ("dam", dam), ("mud", mud))},
         "single_gain": max(row["energy gained"] for row in wet if row["method"] == "single-point"),
         "peak": Lookup(lambda method: wet.where(method=method).largest["largest effective stress, kPa"]),
-        "thrown": stable("single_point", points="double"),
+        "thrown": stable_of(rows("single_point").where(points="double")),
         "made": rows("single_point").where(points="single").largest["error"],
-        "low": stable("low_stress"), "oscillation": rows("low_stress").largest["oscillation of p'"],
+        "low": stable_of(rows("low_stress")), "oscillation": rows("low_stress").largest["oscillation of p'"],
         "air": rows("air_gap").largest["air left, cells"], "pond_gain": two_points.largest["gain"],
         "pond_of_2": pond["2 x 2"] / pond["4 x 4"],
         "water": one("point_sets", soil="dense", points="single", end=12.)["change of water mass"],

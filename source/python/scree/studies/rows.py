@@ -31,26 +31,12 @@ class Lookup:
 class Rows(list):
     """Rows, each {column: value}: `rows.largest["gain"]`, in a sentence `{rows.largest[gain]:.2g}`."""
 
-    @property
-    def n(self):
-        return len(self)
-
-    @property
-    def values(self):
-        """The values of a column, in the order of the rows."""
-        return Lookup(lambda name: [row[name] for row in self])
-
-    @property
-    def largest(self):
-        return Lookup(lambda name: max(self.values[name]))
-
-    @property
-    def smallest(self):
-        return Lookup(lambda name: min(self.values[name]))
-
-    @property
-    def span(self):
-        return Lookup(lambda name: Span.of(self.values[name]))
+    n = property(len)
+    # Of a column: its values in the order of the rows, the largest one, the smallest one, both.
+    values = property(lambda self: Lookup(lambda name: [row[name] for row in self]))
+    largest = property(lambda self: Lookup(lambda name: max(self.values[name])))
+    smallest = property(lambda self: Lookup(lambda name: min(self.values[name])))
+    span = property(lambda self: Lookup(lambda name: Span.of(self.values[name])))
 
     def where(self, labels=None, **more):
         """Those with these values in their columns, {column: value}, or of which a function is true."""

@@ -104,7 +104,7 @@ class Study:
 
 def study_of(name):
     """The study of a module of scree.studies.cases, with its words and functions; its verdict(rows) has a `claim`."""
-    module, text = importlib.import_module(f"scree.studies.cases.{name}"), Text(name)
+    module, text = importlib.import_module(f"scree.studies.cases.{name}"), Text.of(name)
     return dataclasses.replace(
         module.STUDY, text=text, measure=module.measure, compared=getattr(module, "compared", None),
         verdict=lambda rows: module.verdict(rows, Claims(text.sentences)),

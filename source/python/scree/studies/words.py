@@ -7,8 +7,8 @@ all are written, of {name: value} "value (name)", and `:.1f %` writes a part as 
 a number of millimetres.
 """
 
-import functools
 import numbers
+import pathlib
 import re
 import string
 from typing import NamedTuple
@@ -54,40 +54,25 @@ class Filling(string.Formatter):
 filled = Filling().format
 
 
-class Text:
-    """The words of a study; their file is read when they are asked for."""
+class Text(NamedTuple):
+    """The words of a study; `sentences`: those of the claims, by name."""
+    file: pathlib.Path
+    title: str
+    question: str
+    advice: str
+    introduction: str
+    sentences: dict
 
-    def __init__(self, name):
-        self.file = FOLDER / f"{name}.md"
-
-    @functools.cached_property
-    def _parts(self):
-        parts = FORM.match(self.file.read_text(encoding="utf-8"))
+    @classmethod
+    def of(cls, name):
+        """Reads those of a study by its name. Throws an OSError or a ValueError."""
+        file = FOLDER / f"{name}.md"
+        parts = FORM.match(file.read_text(encoding="utf-8"))
         if parts is None:
-            raise ValueError(f"{self.file}: write title, question, advice, ## Text and ## Claims, with empty lines "
-                             "between them")
-        return parts.groups()
-
-    @property
-    def title(self):
-        return " ".join(self._parts[0].split())
-
-    @property
-    def question(self):
-        return " ".join(self._parts[1].split())
-
-    @property
-    def advice(self):
-        return " ".join(self._parts[2].split())
-
-    @property
-    def introduction(self):
-        return self._parts[3]
-
-    @functools.cached_property
-    def sentences(self):
-        """Those of the claims, by name."""
-        return {name: " ".join(words.split()) for name, words in ITEM.findall(self._parts[4] or "")}
+            raise ValueError(f"{file}: write title, question, advice, ## Text and ## Claims, with empty lines between them")
+        *head, introduction, claims = parts.groups()
+        sentences = {name: " ".join(words.split()) for name, words in ITEM.findall(claims or "")}
+        return cls(file, *(" ".join(words.split()) for words in head), introduction, sentences)
 
 
 class Claims:
