@@ -69,7 +69,7 @@ class Text(NamedTuple):
         file = FOLDER / f"{name}.md"
         parts = FORM.match(file.read_text(encoding="utf-8"))
         if parts is None:
-            raise ValueError(f"{file}: write title, question, advice, ## Text and ## Claims, with empty lines between them")
+            raise ValueError(f"{file}: write title, question, advice, ## Text, ## Claims, with empty lines between them")
         *head, introduction, claims = parts.groups()
         sentences = {name: " ".join(words.split()) for name, words in ITEM.findall(claims or "")}
         return cls(file, *(" ".join(words.split()) for words in head), introduction, sentences)
