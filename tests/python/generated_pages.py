@@ -52,7 +52,7 @@ def check_benchmarks():
 def faults_of_choices(page, text):
     if choices.filled(page, text) != text:
         yield f"{page.name} is not current. Run PYTHONPATH=source/python python3 -m scree.choices."
-    missing = set(choices.MAKERS[page]) - {match.group(2) for match in choices.BLOCK.finditer(text)}
+    missing = set(choices.BLOCKS[page]) - {match.group(2) for match in choices.BLOCK.finditer(text)}
     if missing:
         yield f"{page.name} has no block for {', '.join(sorted(missing))}."
     for line in choices.BLOCK.sub("", text).splitlines():
@@ -62,7 +62,7 @@ def faults_of_choices(page, text):
 
 def check_choices():
     found = []
-    for page in choices.MAKERS:
+    for page in choices.BLOCKS:
         text = page.read_text(encoding="utf-8")
         found += faults_of_choices(page, text)
         block = next(match for match in choices.BLOCK.finditer(text) if re.search(r"\d+ % at \d+", match.group()))
@@ -79,7 +79,7 @@ def check_choices():
         pass
     if [choices.reached({5: 0.2, 10: 0.04, 20: 0.06, 40: 0.01}, bound) for bound in (0.05, 0.1, 0.001)] != ["40", "10", "none"]:
         found.append("The smallest H/h from which on all runs are within the bound is wrong.")
-    print(f"{sum(map(len, choices.MAKERS.values()))} blocks")
+    print(f"{sum(map(len, choices.BLOCKS.values()))} blocks")
     return found
 
 

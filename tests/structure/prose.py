@@ -20,8 +20,9 @@ PHRASES = [re.compile(r"(?<!\w)(" + r"\s+".join(phrase.split()) + r")(?!\w)", re
 
 
 def plain(line):
-    """A line without what does not count: a formula or code is one word, a link its text."""
+    """A line without what does not count: a formula, code or a number to fill in is one word, a link its text."""
     line = re.sub(r"`[^`]*`", "`code`", line)
+    line = re.sub(r"\{[\w.]+(\[[^\]]*\])?:[^}]*\}", "number", line)
     line = re.sub(r"\$[^$]+\$", lambda formula: "f" * len(formula[0]), line)
     line = re.sub(r"(!?\[[^\]]*\])\([^()\s]*(?:\([^()]*\)[^()\s]*)*\)", r"\1", line)
     line = re.sub(r"^(\[[^\]]+\]:) .*", r"\1", line)

@@ -6,7 +6,6 @@ import fcntl
 import json
 import pathlib
 import re
-import shlex
 import shutil
 import subprocess
 import tempfile
@@ -16,21 +15,7 @@ from typing import NamedTuple
 from scree import command, results, variants
 from scree.scenarios import study as studies
 
-# The marker of a run that has ended well is its output for Snakemake. A stopped run goes on from its checkpoint.
-SNAKEFILE = """# Written by scree-scenarios, which calls Snakemake; the runs are those of {study}.
-rule all:
-    input: {outputs}
-
-rule scree:
-    input: "cases/{{run}}.prm"
-    output: touch("runs/{{run}}/finished")
-    threads: {ranks}
-    shell:
-        "rm -f runs/{{wildcards.run}}/failed; mkdir -p runs/{{wildcards.run}}; resume=;"
-        " if [ -d runs/{{wildcards.run}}/checkpoint ]; then resume=--resume; fi;"
-        " if {program} {{input}} $resume > runs/{{wildcards.run}}/screen.txt 2>&1; then rm -rf runs/{{wildcards.run}}/checkpoint;"
-        " else code=$?; echo $code > runs/{{wildcards.run}}/failed; exit $code; fi"
-"""
+SNAKEFILE = pathlib.Path(__file__).with_name("Snakefile.txt")
 MISSING = "Install Debian's package snakemake: apt-get install --no-install-recommends snakemake"
 
 
@@ -105,16 +90,10 @@ def prepare(study, n_ranks):
     program = command.program("scree")
     if program is None:
         raise ValueError("no program scree is there. Build it (sh doc/quickstart.sh), or add its folder to PATH")
-    ranks = f"mpirun -np {n_ranks} " if n_ranks > 1 else ""
-    outputs = ", ".join(f'"runs/{number}/finished"' for number in study.numbers)
-    (study.folder / "Snakefile").write_text(SNAKEFILE.format(study=study.file.name, outputs=outputs, ranks=n_ranks, program=ranks + _quoted(program)),
-                                            encoding="utf-8")
-
-
-def _quoted(program):
-    """For the shell, within a string of a Snakefile."""
-    text = shlex.quote(str(pathlib.Path(program).resolve()))
-    return text.replace("\\", "\\\\").replace('"', '\\"').replace("{", "{{").replace("}", "}}")
+    command_line = [*(["mpirun", "-np", str(n_ranks)] if n_ranks > 1 else []), str(pathlib.Path(program).resolve())]
+    config = {"runs": study.numbers, "ranks": n_ranks, "program": command_line}
+    (study.folder / "runs.json").write_text(json.dumps(config), encoding="utf-8")
+    shutil.copy(SNAKEFILE, study.folder / "Snakefile")
 
 
 def _is_stale(study, number):

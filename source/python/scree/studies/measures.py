@@ -74,47 +74,44 @@ def state_of(columns, ended, broken=False):
 def share_of_defaults(rows):
     """The headline of a map: how many of the cells with the program's defaults are stable and in which states the others are, with the worst
     number of the cells that did not blow up; where all are stable, the number that is nearest to its bound."""
-    defaults = [row for row in rows if row["default"]]
-
-    def count(state, chosen=defaults):
-        return sum(row["state"] == state for row in chosen)
+    defaults = rows.where(default=True)
+    standing = defaults.where(lambda row: row["state"] != "blow-up")
 
     def worst(name):
-        values = [row.get(name, math.nan) for row in defaults if row["state"] != "blow-up"]
-        return max(filter(math.isfinite, values), default=-math.inf)
+        return max((row[name] for row in standing if math.isfinite(row.get(name, math.nan))), default=-math.inf)
 
     def told(name):
         return f"{name} up to {worst(name):{'.0f' if worst(name) > 100 else '.2g'}}, bound {BOUNDS[name]:g}"
-    others = [f"{state} in {count(state)}" + "".join(f" ({told(name)})" for name in columns if worst(name) > BOUNDS[name])
-              for state, columns in {"blow-up": (), **DECIDING}.items() if count(state)]
+
+    others = []
+    for state in ("blow-up", *DECIDING):
+        beyond = "".join(f" ({told(name)})" for name in DECIDING.get(state, ()) if worst(name) > BOUNDS[name])
+        others += [f"{state} in {found.n}{beyond}"] if (found := defaults.where(state=state)) else []
     if not others:
-        others = ["nearest to its bound: " + told(max((name for columns in DECIDING.values() for name in columns), key=lambda name: worst(name) / BOUNDS[name]))]
+        names = [name for columns in DECIDING.values() for name in columns]
+        others = ["nearest to its bound: " + told(max(names, key=lambda name: worst(name) / BOUNDS[name]))]
     listed = ", ".join(others)
-    within = [row for row in defaults if row.get("step/limit", 1.) <= 1]
-    return (f"{count('stable')} of {len(defaults)} default cells are stable. {listed[0].upper()}{listed[1:]}."
-            + (f" Up to the limit time step, {count('stable', within)} of {len(within)} are." if len(within) < len(defaults) else ""))
+    within = defaults.where(lambda row: row.get("step/limit", 1.) <= 1)
+    text = f"{stable_of(defaults)} default cells are stable. {listed[0].upper()}{listed[1:]}."
+    return text + (f" Up to the limit time step, {stable_of(within)} are." if within.n < defaults.n else "")
+
+
+def stable_of(rows):
+    return f"{rows.where(state='stable').n} of {rows.n}"
 
 
 def map_table(rows):
-    """How many cells are in each state and the worst number of each bound, for the cells with the defaults and for the others."""
-    groups = {"defaults": [row for row in rows if row["default"]], "other options": [row for row in rows if not row["default"]]}
+    """How many cells are in each state and the worst number of each bound, for the cells with the defaults and for the
+    others."""
+    groups = {"defaults": rows.where(default=True), "other options": rows.where(default=False)}
     groups = {name: chosen for name, chosen in groups.items() if chosen}
 
     def worst(chosen, name):
         values = [row[name] for row in chosen if math.isfinite(row.get(name, math.nan))]
-        return f"{(min if name == 'smallest J' else max)(values, default=math.nan):.2g}" if values else "-"
-    measured = [name for name in BOUNDS if name in rows[0]]
-    return [("quantity, worst of all cells", *groups, "bound"),
-            ("stable cells", *(f"{sum(row['state'] == 'stable' for row in chosen)} of {len(chosen)}" for chosen in groups.values()), "all"),
-            *((name, *(worst(chosen, name) for chosen in groups.values()), f"{BOUNDS[name]:g}") for name in measured)]
-
-
-def grouped(rows, *names):
-    """{values of these columns: rows from the largest cells to the smallest}. Rows with a number of cells only get h = 1/cells."""
-    found = {}
-    for row in sorted(({"h": 1 / row["cells"], **row} if "cells" in row else row for row in rows), key=lambda row: -row["h"]):
-        found.setdefault(tuple(row[name] for name in names), []).append(row)
-    return found
+        return f"{(min if name == 'smallest J' else max)(values):.2g}" if values else "-"
+    return [("quantity, worst of all cells", *groups, "bound"), ("stable cells", *map(stable_of, groups.values()), "all"),
+            *((name, *(worst(chosen, name) for chosen in groups.values()), f"{BOUNDS[name]:g}")
+              for name in BOUNDS if name in rows[0])]
 
 
 def cause(run):

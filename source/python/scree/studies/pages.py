@@ -7,12 +7,12 @@ import math
 import re
 from typing import NamedTuple
 
-from scree.command import ROOT
+from scree.studies import words
 from scree.studies.charts import StabilityMap
 from scree.studies.measures import BOUNDS, map_table, share_of_defaults
 
 LINE = 120
-INTRODUCTIONS = ROOT / "doc" / "studies" / "intro"
+BOUNDS_TEXT = words.FOLDER / "bounds.md"
 SENTENCES = re.compile(r"(?<=[.!?])(?<!al\.)\s+(?=[A-Z0-9`*(\[\"]|p )")
 MARKUP = re.compile(r"([-+*>#|]|#+|\d+[.)])$")  # a word that would begin a list, a heading or a table at the start of a line
 
@@ -58,10 +58,6 @@ def sentences(text, first="", indent=""):
     for sentence in SENTENCES.split(" ".join(text.split())):
         lines += filled(sentence, indent if lines else first, indent)
     return lines
-
-
-def introduction(name):
-    return (INTRODUCTIONS / f"{name}.md").read_text(encoding="utf-8").rstrip()
 
 
 def table(rows, indent=""):
@@ -122,10 +118,10 @@ def section_text(name, study, rows, claims):
     """What holds, chart, text, one table and what does not hold of a study."""
     seconds = sum(row["core-seconds"] for row in rows if math.isfinite(row.get("core-seconds", math.nan)))
     cost = f"{seconds:.0f} core-seconds" if seconds < 90 else f"{seconds / 60:.0f} core-minutes"
-    lines = [f"## {study.title}", ""]
+    lines = [f"## {study.text.title}", ""]
     for text in results(study, rows, claims):
         lines += sentences(text, "- ", "  ")
-    lines += ["", f"![{study.title}]({name}.svg)", "", introduction(name)]
+    lines += ["", f"![{study.text.title}]({name}.svg)", "", study.text.introduction]
     found = study.table(rows) if study.table else map_table(rows) if isinstance(study.chart, StabilityMap) else None
     lines += ["", *table(found)] if found else []
     missed = misses(study, rows, claims)
@@ -144,7 +140,7 @@ def page_text(topic, studies):
     names = [name for name in names if name in studies]
     lines = [f"# {title}", "",
              *table([("study", "question", "what to do", "claims that hold"),
-                     *((f"[{study.title}](#{slug(study.title)})", study.question, study.advice, n_held(claims))
+                     *((f"[{study.text.title}](#{slug(study.text.title)})", study.text.question, study.text.advice, n_held(claims))
                        for study, _, claims in (studies[name] for name in names))])]
     compared = comparison(studies[name] for name in names)
     lines += ["", *compared] if compared else []
@@ -158,7 +154,7 @@ def index_text(studies):
     missed = [(name, label, text) for name in names for label, text in misses(*studies[name])]
 
     def link(name):
-        title = studies[name][0].title
+        title = studies[name][0].text.title
         return f"[{title}]({topic_of(name)}.md#{slug(title)})"
 
     def section(title, label):
@@ -171,7 +167,7 @@ def index_text(studies):
              "The pages have charts, tables and conditions.",
              "`build/scree-study NAME` repeats one; `build/scree-study all --page` writes all pages again from their tables.",
              "What follows for a case: [choices](../../choosing.md), with the number of points; [defaults](../defaults.md).", "",
-             *table([("study", "what to do", "claims that hold"), *((link(name), studies[name][0].advice, n_held(studies[name][2])) for name in names)]), "",
+             *table([("study", "what to do", "claims that hold"), *((link(name), studies[name][0].text.advice, n_held(studies[name][2])) for name in names)]), "",
              *comparison(studies.values()), *section("Claims that do not hold", FAILED),
              *section("Maps with default cells that are not stable", UNSTABLE)]
-    return "\n".join([*lines, "", "## Bounds of the stability maps", "", introduction("bounds").format_map(BOUNDS)]) + "\n"
+    return "\n".join([*lines, "", "## Bounds of the stability maps", "", BOUNDS_TEXT.read_text(encoding="utf-8").rstrip().format_map(BOUNDS)]) + "\n"

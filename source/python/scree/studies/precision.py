@@ -9,6 +9,9 @@ import re
 
 import numpy as np
 
+from scree.studies.rows import Lookup, Rows
+from scree.studies.study import axis, product
+
 DEFAULTS = "defaults"
 # The options that studies compare, by their names: what stands in parentheses is the value of the entries.
 OPTIONS = {"(linear)": ["Mesh/Basis"], "(single)-point": ["Water/Point sets"], "(no|standard|modified|projected) F-bar": ["Stabilisation/F-bar"],
@@ -28,6 +31,11 @@ def _entries_of(name, without):
     value, entries = next((match.group(1), entries) for pattern, entries in OPTIONS.items() if (match := re.fullmatch(pattern, name)))
     value = float(value) if value[0].isdigit() else {"no": "none"}.get(value, value)
     return {entry: value for entry in entries if not entry.startswith(without + "/")}
+
+
+def variants(methods, mesh, sizes, names=None):
+    """Methods, all or those of these names, on meshes; `mesh`: the entry of the cell size, or a function h -> entries."""
+    return product(axis("method", methods.__getitem__, names or methods), axis("h", mesh, sizes))
 
 
 def curve(rows, method=DEFAULTS, column="error"):
@@ -86,7 +94,7 @@ class LimitFit:
     def against_limit(self, rows):
         """The rows with what the reference lacks added to their errors: right where all methods tend to one limit, and fall short of it as the
         reference does. Unchanged without a fit."""
-        return [{**row, "error": row["error"] + self.lack(self.reference)} for row in rows] if self.found else rows
+        return Rows({**row, "error": row["error"] + self.lack(self.reference)} for row in rows) if self.found else rows
 
 
 def ratio(rows, method, column="error", other=DEFAULTS):
@@ -94,6 +102,16 @@ def ratio(rows, method, column="error", other=DEFAULTS):
     own, base = curve(rows, method, column), curve(rows, other, column)
     logs = [math.log(own[h][column] / base[h][column]) for h in own.keys() & base.keys()]
     return math.exp(np.mean(logs)) if logs else math.nan
+
+
+def ratios(rows, column="error"):
+    """`ratio` of each method."""
+    return Lookup(lambda method: ratio(rows, method, column))
+
+
+def beside_defaults(rows):
+    """Values for sentences: `error` and `time` of a method over those of the defaults, `finest`: its error on its finest mesh."""
+    return {"error": ratios(rows), "time": ratios(rows, "core-seconds"), "finest": Lookup(lambda method: at_finest(rows, method))}
 
 
 def cost_at_equal_error(rows, method):

@@ -11,7 +11,6 @@ chart and the page of its topic go to doc/studies/pages; with --quick, a short v
 import concurrent.futures
 import csv
 import hashlib
-import importlib
 import itertools
 import json
 import os
@@ -23,7 +22,8 @@ import tempfile
 from scree.command import ROOT, Command, program
 from scree.studies.charts import StabilityMap
 from scree.studies.pages import TOPICS, index_text, page_text, topic_of
-from scree.studies.study import Run, Variant, prm_files
+from scree.studies.rows import Rows
+from scree.studies.study import Run, Variant, prm_files, study_of
 
 INTERRUPTED = {-2, -9, -15, 130, 137, 143}  # by SIGINT, SIGKILL, SIGTERM, itself or below `timeout`: such a run is not kept
 
@@ -32,10 +32,6 @@ PAGES = ROOT / "doc" / "studies" / "pages"
 
 def names_of_studies():
     return sorted(file.stem for file in pathlib.Path(__file__).with_name("cases").glob("[a-z]*.py"))
-
-
-def module_of(name):
-    return importlib.import_module(f"scree.studies.cases.{name}")
 
 
 def case_text(study, variant, folder=None):
@@ -138,7 +134,7 @@ def write_table(rows, table):
 def read_table(table):
     """The rows of a table: numbers are floats, True and False are themselves, the rest is text."""
     with open(table, newline="", encoding="utf-8") as file:
-        return [{name: _value(word) for name, word in row.items()} for row in csv.DictReader(file)]
+        return Rows({name: _value(word) for name, word in row.items()} for row in csv.DictReader(file))
 
 
 def row_of(study, run):
@@ -155,7 +151,7 @@ def page_texts():
     """{file: text} of the list of the studies and of all pages, from the committed tables."""
     studies = {}
     for name in names_of_studies():
-        table, study = PAGES / f"{name}.csv", module_of(name).STUDY
+        table, study = PAGES / f"{name}.csv", study_of(name)
         if table.exists():
             rows = read_table(table)
             studies[name] = study, rows, study.verdict(rows)
@@ -190,7 +186,7 @@ def cells_lost(name, study, folder):
 
 def run_study(name, arguments):
     """True if all claims hold, and in the short version also if the map is what the committed table says."""
-    study = module_of(name).STUDY
+    study = study_of(name)
     folder = arguments.results / "quick" if arguments.quick else PAGES
     rows = None if arguments.page else [row_of(study, run) for run in make_runs(name, study, arguments)]
     claims = [claim for claim in finish(name, study, folder, rows) if claim.quick or not arguments.quick]

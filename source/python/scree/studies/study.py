@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What a study is: variants of a case, a measure of each run, a chart and a verdict. doc/developer/index.md shows how to write one."""
+"""What a study is: variants of a case, a measure of each run, a chart and a verdict. doc/developer/index.md shows how
+to write one."""
 
 import atexit
 import csv
 import dataclasses
 import functools
+import importlib
 import itertools
 import math
 import pathlib
@@ -16,23 +18,12 @@ from typing import Any, Callable, NamedTuple
 from scree import results
 from scree import variants as prm_files
 from scree.command import ROOT
-
-
-class Claim(NamedTuple):
-    """A sentence of the verdict, its numbers taken from the table, and whether the table bears it out.
-
-    With `quick` False it needs the whole study, and the short version does not check it. `worst`: it stands at the head of its section.
-    `tabled`: the table of the section says the same; the sentence stands on the page only if it does not hold.
-    """
-    text: str
-    holds: bool
-    quick: bool = True
-    worst: bool = False
-    tabled: bool = False
+from scree.studies.words import Claims, Text
 
 
 class Variant(NamedTuple):
-    """Labels: the columns that tell this run from others. Entries: {"Mesh/Cell size": 0.1}. Base: another case than the study's. Ranks: of this run."""
+    """Labels: the columns that tell this run from others. Entries: {"Mesh/Cell size": 0.1}. Base: another case than the
+    study's. Ranks: of this run."""
     labels: dict
     entries: dict
     base: str | None = None
@@ -47,7 +38,8 @@ def axis(label, entry, values):
 
 
 def transfer(method):
-    """The entries of a method other than FLIP: none reads the PIC rate that a case of FLIP may set, and the program refuses it."""
+    """The entries of a method other than FLIP: none reads the PIC rate that a case of FLIP may set, and the program
+    refuses it."""
     return {"Transfer/Method": method, "Transfer/PIC rate": "auto"}
 
 
@@ -77,23 +69,22 @@ def compiled(source, compiler, *flags):
 
 @dataclasses.dataclass(frozen=True)
 class Study:
-    """`measure(run)` returns the columns of a run; `verdict(rows)` the claims, from the rows as the table holds them.
+    """Variants of the case `base`, and the chart. A study is a module of scree.studies.cases with it as STUDY, and with
 
-    entries: common to all variants. reference: entries of a run made first, `run.reference` in the measure; quick_reference: that of the
-    short version, if it is another one. quick(labels): whether a variant belongs to the short version. needs_end: a run that failed has
-    no measures. options: of the program, such as --safety. default: the labels of the .prm's defaults, marked in the chart; a stability map needs them, {} if it compares no options, as
-    its headline is the share of these cells that are stable.
-    environment(): variables that it is run with. after(run, program): what else is to be made in a run's folder, right after it.
-    table(rows): the table of its section, the first row is the head; a map has one without it. compared(rows): lines of the table of experiments,
-    (quantity, unit, measured, computed).
+    measure(run): the columns of a run, {column: value};
+    verdict(rows, claim): the claims on the Rows as the table holds them, by claim(name, holds, values of its sentence);
+    table(rows): the table of its section, the first row is the head; a map has one without it;
+    compared(rows): lines of the table of experiments, (quantity, unit, measured, computed); most have none.
+
+    entries: common to all variants. reference: entries of a run made first, `run.reference` in the measure;
+    quick_reference: that of the short version, if it is another one. quick(labels): whether a variant belongs to the
+    short version. needs_end: a run that failed has no measures. options: of the program, such as --safety.
+    default: the labels of the .prm's defaults, marked in the chart; a stability map needs them, {} if it compares no
+    options, as its headline is the share of these cells that are stable. environment(): variables that it is run with.
+    after(run, program): what else is to be made in a run's folder, right after it.
     """
-    title: str
-    question: str
-    advice: str
     base: str
     variants: list
-    measure: Callable
-    verdict: Callable
     chart: Any
     entries: dict = dataclasses.field(default_factory=dict)
     reference: dict | None = None
@@ -105,7 +96,19 @@ class Study:
     environment: Callable = dict
     after: Callable = lambda run, program: None
     table: Callable | None = None
+    text: Text | None = None  # this and the following are set by study_of
+    measure: Callable | None = None
+    verdict: Callable | None = None
     compared: Callable | None = None
+
+
+def study_of(name):
+    """The study of a module of scree.studies.cases, with its words and functions; its verdict(rows) has a `claim`."""
+    module, text = importlib.import_module(f"scree.studies.cases.{name}"), Text.of(name)
+    return dataclasses.replace(
+        module.STUDY, text=text, measure=module.measure, compared=getattr(module, "compared", None),
+        verdict=lambda rows: module.verdict(rows, Claims(text.sentences)),
+        table=module.STUDY.table or getattr(module, "table", None))
 
 
 class Run:
@@ -139,7 +142,8 @@ class Run:
         return results.read_statistics(self.folder) if (self.folder / "statistics").exists() else {}
 
     def statistics(self, name):
-        """A column by its whole name; a KeyError lists the names if there is none. For one that not all runs have: `columns.get(name)`."""
+        """A column by its whole name; a KeyError lists the names if there is none. For one that not all runs have:
+        `columns.get(name)`."""
         return results.column(self.columns, name)
 
     @property
@@ -154,8 +158,8 @@ class Run:
     def cost(self):
         """Steps, core-seconds of the steps, ns per point and step; nan where the run did not come to its end.
 
-        Core-seconds are processor time, which a busy machine disturbs less than the clock on the wall: that of the steps and the output, as the
-        log tells it.
+        Core-seconds are processor time, which a busy machine disturbs less than the clock on the wall: that of the
+        steps and the output, as the log tells it.
         """
         log = self.folder / "log.txt"
         text = log.read_text(encoding="utf-8") if log.exists() else ""
@@ -163,4 +167,5 @@ class Run:
         if not of_steps:
             return {"steps": math.nan, "core-seconds": self._core_seconds, "ns per point and step": math.nan}
         updates, seconds = map(float, of_steps.groups())
-        return {"steps": self.statistics("Step")[-1], "core-seconds": seconds, "ns per point and step": 1e9 * seconds / updates}
+        return {"steps": self.statistics("Step")[-1], "core-seconds": seconds,
+                "ns per point and step": 1e9 * seconds / updates}

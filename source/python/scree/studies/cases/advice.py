@@ -9,22 +9,27 @@ import tomllib
 
 from scree import variants as prm_files
 from scree.studies.charts import Curves, tick_axis
-from scree.studies.study import ROOT, Claim, Run, Study, Variant
+from scree.studies.study import ROOT, Run, Study, Variant
 
 FACTOR = 1.5
 TURNS = 3
+COST, STEPS = "cost ratio", "steps ratio"
 
 OWN = tomllib.loads((ROOT / "doc" / "studies" / "reference" / "advice.toml").read_text(encoding="utf-8"))
-FOLDERS = ("", "bed", "benchmarks", "columns", "consolidation", "contact", "dynamics", "seepage", "slopes", "terrain", "water")
+FOLDERS = ("", "bed", "benchmarks", "columns", "consolidation", "contact", "dynamics", "seepage", "slopes", "terrain",
+           "water")
 WITHOUT_RASTERS = {"acheron"}  # they are not in the repository
 TINY = {"terzaghi", "saturated_rest"}
 
 
 def cases():
-    files = [file for folder in FOLDERS for file in sorted((ROOT / "prm" / folder).glob("*.prm")) if file.stem not in WITHOUT_RASTERS]
-    old = [Variant({"case": file.stem, "kind": "old"}, {**OWN["former"].get(file.stem, {}), **({"End time": end} if (end := OWN["parts"].get(file.stem)) else {})},
+    files = [file for folder in FOLDERS for file in sorted((ROOT / "prm" / folder).glob("*.prm"))
+             if file.stem not in WITHOUT_RASTERS]
+    ends = {case: {"End time": end} for case, end in OWN["parts"].items()}
+    old = [Variant({"case": file.stem, "kind": "old"}, {**OWN["former"].get(file.stem, {}), **ends.get(file.stem, {})},
                    str(file.relative_to(ROOT))) for file in files]
-    return old + [Variant({"case": case, "kind": "new"}, {key: value for key, value in given.items() if key != "base"}, given["base"])
+    return old + [Variant({"case": case, "kind": "new"}, {key: value for key, value in given.items() if key != "base"},
+                          given["base"])
                   for case, given in OWN["new"].items()]
 
 
@@ -52,15 +57,17 @@ def predicted(run, turn):
     """Core-seconds of the run and its steps, as the advice says."""
     text = advice(run, turn).read_text(encoding="utf-8")
     cost = text[text.index("Estimated cost of this case"):text.index("Recommendation")]
-    return [float(re.search(pattern, cost, re.MULTILINE).group(1)) for pattern in (r"^  run +([\d.e+-]+)", r"^  steps to .* ([\d.e+-]+)$")]
+    return [float(re.search(pattern, cost, re.MULTILINE).group(1))
+            for pattern in (r"^  run +([\d.e+-]+)", r"^  steps to .* ([\d.e+-]+)$")]
 
 
 def measure(run):
     runs = [run, *(Run(again(run, turn), run.labels, run.exit_code, math.nan) for turn in range(1, TURNS))]
     cost = sorted((one.cost for one in runs), key=lambda one: one["core-seconds"])[TURNS // 2]
     seconds, steps = map(statistics.median, zip(*(predicted(run, turn) for turn in range(TURNS))))
-    return {**cost, "simulated": run.time[-1], "whole": run.labels["case"] not in OWN["parts"], "predicted core-seconds": seconds, "predicted steps": steps,
-            "cost ratio": seconds / cost["core-seconds"], "steps ratio": steps / cost["steps"]}
+    return {**cost, "simulated": run.time[-1], "whole": run.labels["case"] not in OWN["parts"],
+            "predicted core-seconds": seconds,
+            "predicted steps": steps, COST: seconds / cost["core-seconds"], STEPS: steps / cost["steps"]}
 
 
 def off(ratio):
@@ -68,50 +75,54 @@ def off(ratio):
     return max(ratio, 1 / ratio) if ratio > 0 else math.inf
 
 
-def verdict(rows):
-    costs, steps = [off(row["cost ratio"]) for row in rows], [off(row["steps ratio"]) for row in rows]
-    worst, worst_steps = rows[costs.index(max(costs))], rows[steps.index(max(steps))]
-    new = [cost for row, cost in zip(rows, costs) if row["kind"] == "new"]
-    geometric = math.exp(sum(math.log(factor) for factor in costs) / len(costs))
-    n_parts = sum(not row["whole"] for row in rows)
-    return [Claim(f"The predicted core-seconds are within a factor {FACTOR:g} of the measured ones in {sum(cost <= FACTOR for cost in costs)} of {len(rows)} cases. "
-                  f"The worst factor is {max(costs):.2f} ({worst['case']}), the geometric mean {geometric:.2f}. For {n_parts} of the cases only a first part was "
-                  "run; their cost to the end is not verified.", holds=max(costs) <= FACTOR, quick=False),
-            Claim(f"Of the new cases {sum(cost <= FACTOR for cost in new)} of {len(new)} are within that factor.", holds=max(new, default=1) <= FACTOR, quick=False),
-            Claim(f"The predicted steps are within a factor 1.3: at worst {max(steps):.2f} ({worst_steps['case']}).", holds=max(steps) <= 1.3)]
+def mean_off(rows):
+    return math.exp(sum(math.log(off(ratio)) for ratio in rows.values[COST]) / rows.n)
+
+
+def verdict(rows, claim):
+    costs = [off(ratio) for ratio in rows.values[COST]]
+    worst, worst_steps = (max(rows, key=lambda row: off(row[name])) for name in (COST, STEPS))
+    new = rows.where(kind="new")
+    within = {name: sum(off(ratio) <= FACTOR for ratio in of.values[COST])
+              for name, of in (("all", rows), ("new", new))}
+    most_steps = off(worst_steps[STEPS])
+    claim = claim.shared(rows=rows, new=new, factor=FACTOR, within=within, worst=worst, worst_steps=worst_steps)
+    return [claim("cost", max(costs) <= FACTOR, quick=False, most=max(costs), mean=mean_off(rows),
+                  parts=rows.where(whole=False)),
+            claim("new cases", within["new"] == new.n, quick=False), claim("steps", most_steps <= 1.3, most=most_steps)]
 
 
 def table(rows):
-    groups = {"whole case": [row for row in rows if row["kind"] == "old" and row["whole"]], "first part of a case": [row for row in rows if not row["whole"]],
-              "new case": [row for row in rows if row["kind"] == "new"]}
-    return [("compared", "cases", "predicted over measured", "geometric mean of the factor", "predicted steps over measured"),
-            *((name, str(len(group)), f"{min(row['cost ratio'] for row in group):.2f} to {max(row['cost ratio'] for row in group):.2f}",
-               f"{math.exp(sum(math.log(off(row['cost ratio'])) for row in group) / len(group)):.2f}",
-               f"{min(row['steps ratio'] for row in group):.2f} to {max(row['steps ratio'] for row in group):.2f}") for name, group in groups.items() if group)]
+    groups = {"whole case": rows.where(kind="old", whole=True), "first part of a case": rows.where(whole=False),
+              "new case": rows.where(kind="new")}
+    return [("compared", "cases", "predicted over measured", "geometric mean of the factor",
+             "predicted steps over measured"),
+            *((name, str(of.n), f"{of.span[COST]:.2f}", f"{mean_off(of):.2f}", f"{of.span[STEPS]:.2f}")
+              for name, of in groups.items() if of)]
 
 
 def draw(figure, rows):
     axes = figure.add_subplot()
-    ends = [min(row["core-seconds"] for row in rows) / 2, 2 * max(row["core-seconds"] for row in rows)]
-    axes.fill_between(ends, [x / FACTOR for x in ends], [x * FACTOR for x in ends], color="#dddddd", label=f"within a factor {FACTOR:g}")
+    ends = [rows.smallest["core-seconds"] / 2, 2 * rows.largest["core-seconds"]]
+    axes.fill_between(ends, [x / FACTOR for x in ends], [x * FACTOR for x in ends], color="#dddddd",
+                      label=f"within a factor {FACTOR:g}")
     axes.plot(ends, ends, color="0.5", linewidth=0.8)
-    for kind, whole, face, edge, label in (("old", True, "C0", "C0", "whole case"), ("old", False, "white", "C0", "first part"),
+    for kind, whole, face, edge, label in (("old", True, "C0", "C0", "whole case"),
+                                           ("old", False, "white", "C0", "first part"),
                                            ("new", True, "C1", "C1", "new case, whole")):
-        chosen = [row for row in rows if row["kind"] == kind and row["whole"] == whole]
-        axes.scatter([row["core-seconds"] for row in chosen], [row["predicted core-seconds"] for row in chosen], s=28, zorder=3, facecolor=face,
-                     edgecolor=edge, label=label)
-    for row in (min(rows, key=lambda row: row["cost ratio"]), max(rows, key=lambda row: row["cost ratio"])):
-        axes.annotate(f"{row['case']}: {row['cost ratio']:.2f}", (row["core-seconds"], row["predicted core-seconds"]), fontsize=9, xytext=(24, -24), arrowprops={"arrowstyle": "-", "linewidth": 0.5},
-                      textcoords="offset points")
-    axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends, xlabel="measured, core-seconds", ylabel="predicted by scree --advise, core-seconds")
+        chosen = rows.where(kind=kind, whole=whole)
+        axes.scatter(chosen.values["core-seconds"], chosen.values["predicted core-seconds"], s=28, zorder=3,
+                     facecolor=face, edgecolor=edge, label=label)
+    for row in (rows.with_smallest(COST), rows.with_largest(COST)):
+        axes.annotate(f"{row['case']}: {row[COST]:.2f}", (row["core-seconds"], row["predicted core-seconds"]),
+                      fontsize=9, xytext=(24, -24),
+                      arrowprops={"arrowstyle": "-", "linewidth": 0.5}, textcoords="offset points")
+    axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends, xlabel="measured, core-seconds",
+             ylabel="predicted by scree --advise, core-seconds")
     tick_axis(axes.xaxis)
     tick_axis(axes.yaxis)
     axes.legend(loc="upper left", fontsize=9)
 
 
-STUDY = Study(title="Cost of a case: predicted and measured",
-              question="How reliable is the cost that `--advise` predicts?",
-              advice="Plan with the predicted core-seconds times 1.5.",
-              base="prm", variants=cases(), measure=measure, verdict=verdict, after=ask,
-              quick=lambda labels: labels["case"] in TINY, table=table,
-              chart=Curves(draw, 5., timed=True))
+STUDY = Study("prm", variants=cases(), after=ask,
+              quick=lambda labels: labels["case"] in TINY, chart=Curves(draw, 5., timed=True))

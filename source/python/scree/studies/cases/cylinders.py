@@ -5,10 +5,11 @@ import math
 
 import numpy as np
 
-from scree.studies.cases.run_out_limits import DIAMETER, REPOSE, TRIAXIAL, WITH, WITHOUT, WIDTH, Limit, volume_below
 from scree.pictures.tables import name_lines
+from scree.studies.cases.run_out_limits import DIAMETER, REPOSE, TRIAXIAL, WITH, WITHOUT, WIDTH
 from scree.studies.charts import Curves
-from scree.studies.study import Claim, Study, Variant
+from scree.studies.limits import Limit, volume_below
+from scree.studies.study import Study, Variant
 
 SIZES = {1: (8, 12, 16), 2: (8, 12)}
 TREATMENTS = ((REPOSE, WITH), (TRIAXIAL, WITH), (TRIAXIAL, WITHOUT))
@@ -24,11 +25,13 @@ def variant(aspect, cells, kind, friction):
     side = math.ceil(reach * cells) / cells
     time = 8 * math.sqrt(aspect / 9.81)
     return Variant({"a": float(aspect), "cells": cells, "angle": kind, "friction": friction}, {
-        "Mesh/Upper corner": f"{side:.12g}, {side:.12g}, {math.ceil(height * cells) / cells:.12g}", "Mesh/Cell size": f"{1 / cells:.12g}",
-        "Soil/Region": f"x^2 + y^2 < 1 && z < {aspect}", "Soil/Points per cell": 3, "Soil/Mohr-Coulomb/Young's modulus": f"{1e6 * aspect:g}",
+        "Mesh/Upper corner": f"{side:.12g}, {side:.12g}, {math.ceil(height * cells) / cells:.12g}",
+        "Mesh/Cell size": f"{1 / cells:.12g}",
+        "Soil/Region": f"x^2 + y^2 < 1 && z < {aspect}", "Soil/Points per cell": 3,
+        "Soil/Mohr-Coulomb/Young's modulus": f"{1e6 * aspect:g}",
         "Soil/Mohr-Coulomb/Friction angle": 31, "Soil/Mohr-Coulomb/Friction angle kind": kind, "Transfer/PIC rate": 1,
-        "Soil/Mohr-Coulomb/Grain diameter": DIAMETER if friction == WITH else 0, "End time": f"{time:.4f}", "Output/Interval": f"{time / 4:.4f}",
-        "Output/Graphics": "points"})
+        "Soil/Mohr-Coulomb/Grain diameter": DIAMETER if friction == WITH else 0, "End time": f"{time:.4f}",
+        "Output/Interval": f"{time / 4:.4f}", "Output/Graphics": "points"})
 
 
 def measure(run):
@@ -38,55 +41,61 @@ def measure(run):
     mass = np.cumsum(points.arrays["mass"].ravel()[order])
     within = volume_below(radius, volume, 3)
     places = np.arange(1., radius.max() + WIDTH, 0.01)
-    depths = [(within(place + WIDTH) - within(place)) / (math.pi / 4 * ((place + WIDTH) ** 2 - place ** 2)) for place in places]
+    depths = [(within(place + WIDTH) - within(place)) / (math.pi / 4 * ((place + WIDTH) ** 2 - place ** 2))
+              for place in places]
     front = places[np.flatnonzero(np.array(depths) > 0.02)[-1]] + WIDTH / 2 - 1
-    return {RUN_OUT: front, "run-out, 99 %": np.interp(0.99 * mass[-1], mass, radius[order]) - 1, "over measured": front / measured(run.labels["a"]),
+    return {RUN_OUT: front, "run-out, 99 %": np.interp(0.99 * mass[-1], mass, radius[order]) - 1,
+            "over measured": front / measured(run.labels["a"]),
             "height": np.percentile(points.positions[radius < 0.1, 2], 99)}
 
 
 def group(rows, aspect, kind, friction):
-    return [{**row, "h": 1 / row["cells"]} for row in sorted(rows, key=lambda row: row["cells"]) if (row["a"], row["angle"], row["friction"]) == (aspect, kind, friction)]
+    """From the largest cells to the smallest."""
+    return rows.where(a=aspect, angle=kind, friction=friction).from_coarse()
 
 
 def table(rows):
     found = [("a", "angle read as", "friction", *(f"{cells} cells" for cells in SIZES[1]), "at h = 0", "measured")]
     for aspect in SIZES:
-        for kind, friction in TREATMENTS:
-            of = group(rows, aspect, kind, friction)
+        for treatment in TREATMENTS:
+            of = group(rows, aspect, *treatment)
             if len(of) == len(SIZES[aspect]):
-                limit = Limit(of, RUN_OUT)
-                found.append((aspect, kind, friction, *(f"{row[RUN_OUT]:.2f}" for row in of), *["-"] * (len(SIZES[1]) - len(of)), f"{limit.value:.2f} +- {limit.uncertainty:.2f}", f"{measured(aspect):.2f}"))
+                cells = [f"{run_out:.2f}" for run_out in of.values[RUN_OUT]] + ["-"] * (len(SIZES[1]) - len(of))
+                found.append((aspect, *treatment, *cells, f"{Limit(of, RUN_OUT):.2f}", f"{measured(aspect):.2f}"))
     return found
 
 
-def verdict(rows):
+def verdict(rows, claim):
     claims = []
-    if not all(len(group(rows, aspect, *treatment)) == len(sizes) for aspect, sizes in SIZES.items() for treatment in TREATMENTS):
+    if not all(len(group(rows, aspect, *treatment)) == len(sizes)
+               for aspect, sizes in SIZES.items() for treatment in TREATMENTS):
         slower = [group(rows, 1, *treatment)[0][RUN_OUT] for treatment in TREATMENTS]
-        return [Claim("With the smallest number of cells, the run-out grows from the first to the last set of entries.", slower == sorted(slower))]
+        return [claim("short", slower == sorted(slower))]
     for kind, friction in TREATMENTS:
-        texts, deviations = [], []
-        for aspect in SIZES:
-            value = Limit(group(rows, aspect, kind, friction), RUN_OUT).value
-            deviations.append(value / measured(aspect) - 1)
-            texts.append(f"{value:.2f} for a = {aspect} (measured {measured(aspect):.2f}, {100 * deviations[-1]:+.0f} %)")
-        claims.append(Claim(f"Angle read as {kind}, friction {friction}: the run-out at h = 0 is {', '.join(texts)}. Bound: 10 %.",
-                            max(map(abs, deviations)) < 0.1, quick=False, worst=kind == REPOSE))
+        values = {aspect: Limit(group(rows, aspect, kind, friction), RUN_OUT).value for aspect in SIZES}
+        off = [value / measured(aspect) - 1 for aspect, value in values.items()]
+        told = ", ".join(f"{value:.2f} for a = {aspect} (measured {measured(aspect):.2f}, {100 * part:+.0f} %)"
+                         for (aspect, value), part in zip(values.items(), off))
+        claims.append(claim("run-out", max(map(abs, off)) < 0.1, quick=False, worst=kind == REPOSE, kind=kind,
+                            friction=friction, values=told))
     return claims
 
 
 def draw(figure, rows):
     for axes, aspect in zip(figure.subplots(1, 2), SIZES):
         for index, (kind, friction) in enumerate(TREATMENTS):
-            of = group(rows, aspect, kind, friction)
-            axes.plot([row["cells"] for row in of], [row[RUN_OUT] for row in of], f"C{index}o-", markersize=4, label=f"{kind.replace(' or ', chr(10) + 'or ')},\n{friction}")
+            of, name = group(rows, aspect, kind, friction), kind.replace(" or ", "\nor ")
+            axes.plot(of.values["cells"], of.values[RUN_OUT], f"C{index}o-", markersize=4, label=f"{name},\n{friction}")
         axes.axhline(measured(aspect), color="k", linewidth=1)
-        axes.annotate("measured", (SIZES[1][0], measured(aspect)), textcoords="offset points", xytext=(0, 3), fontsize=9)
+        axes.annotate("measured", (SIZES[1][0], measured(aspect)), textcoords="offset points", xytext=(0, 3),
+                      fontsize=9)
         axes.set(xlabel="cells per radius", ylabel="run-out (r - r0)/r0", title=f"a = {aspect}")
         if aspect == 2:
             name_lines(axes)
 
 
-STUDY = Study(title="Cylinders", question="Does a cylinder need another friction angle than a plane column?", advice="Read the angle as triaxial, without inertial friction, found after the runs. No set serves channels and cylinders.",
-              base="prm/benchmarks/mohr_coulomb_column_3d.prm", variants=[variant(aspect, cells, *treatment) for aspect in SIZES for treatment in TREATMENTS for cells in SIZES[aspect]],
-              measure=measure, verdict=verdict, table=table, chart=Curves(draw), quick=lambda labels: labels["cells"] == 8 and labels["a"] == 1)
+STUDY = Study(
+    "prm/benchmarks/mohr_coulomb_column_3d.prm",
+    variants=[variant(aspect, cells, *treatment) for aspect in SIZES for treatment in TREATMENTS
+              for cells in SIZES[aspect]],
+    chart=Curves(draw), quick=lambda labels: labels["cells"] == 8 and labels["a"] == 1)

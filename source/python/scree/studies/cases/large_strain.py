@@ -8,14 +8,14 @@ import numpy as np
 
 from scree import closed_forms
 from scree.studies.charts import WorkPrecision
-from scree.studies.precision import DEFAULTS, at_finest, costs, failed, methods, order, ratio, table
-from scree.studies.study import Claim, Study, axis, product
+from scree.studies.precision import (DEFAULTS, at_finest, beside_defaults, costs, failed, methods, order, ratios, table,
+                                     variants)
+from scree.studies.study import Study
 
 MUD = closed_forms.Mud(1., closed_forms.oedometric_modulus(2e4, 0.2), 0.5, 1e-2)
 TIMES = [MUD.time(factor) for factor in (0.25, 0.5, 1.)]
-
-
-METHODS = methods("linear", "standard F-bar", "modified F-bar", "2 x 2 points", "3 x 3 points", "6 x 6 points", "FLIP", "Courant number 0.2", "Courant number 0.9")
+METHODS = methods("linear", "standard F-bar", "modified F-bar", "2 x 2 points", "3 x 3 points", "6 x 6 points", "FLIP",
+                  "Courant number 0.2", "Courant number 0.9")
 
 
 def mesh(h):
@@ -48,36 +48,27 @@ def measure(run):
     return {"error": math.sqrt(np.mean(np.square(errors))), "error of p": errors[0], "error of heights": errors[1]}
 
 
-def verdict(rows):
-    stops = failed(rows, "linear")
-    stops = f", and the run stops or loses soil at h = {', '.join(f'{h:.2g}' for h in stops)} m" if stops else ""
-    best = at_finest(rows, DEFAULTS)
+def verdict(rows, claim):
+    error, best, six = ratios(rows), at_finest(rows, DEFAULTS), "6 x 6 points"
+    stops = ", ".join(f"{h:.2g}" for h in failed(rows, "linear"))
+    stops = f", and the run stops or loses soil at h = {stops} m" if stops else ""
+    claim = claim.shared(**beside_defaults(rows))
     return [
-        Claim(f"Where points cross cells, only splines are suitable: linear functions make {ratio(rows, 'linear'):.2g} times the error{stops}.",
-              not ratio(rows, "linear") < 5 and not failed(rows, DEFAULTS)),
-        Claim(f"Use 4 x 4 points, as points cross cells and water leaves the soil. The error with 3 x 3 is {ratio(rows, '3 x 3 points'):.2g} times that of 4 x 4, that with 2 x 2 is "
-              f"{ratio(rows, '2 x 2 points'):.2g} times, and neither converges with the mesh.",
-              ratio(rows, "3 x 3 points") > 1.2 and ratio(rows, "2 x 2 points") > 2, worst=True),
-        Claim(f"6 x 6 points are not better: on the finest mesh they make {at_finest(rows, '6 x 6 points') / best:.2g} times the error for "
-              f"{at_finest(rows, '6 x 6 points', 'core-seconds') / at_finest(rows, DEFAULTS, 'core-seconds'):.2g} times the time, on the others less.",
-              at_finest(rows, "6 x 6 points") > best, quick=False),
-        Claim(f"F-bar is not needed and has little influence: {ratio(rows, 'modified F-bar'):.2g} times the error with the modified one.",
-              0.8 < ratio(rows, "modified F-bar") < 1.4, quick=False),
-        Claim(f"The transfer has little influence (FLIP {ratio(rows, 'FLIP'):.2g} times the error of AFLIP, the default), nor has the time step: Courant number 0.2 "
-              f"{ratio(rows, 'Courant number 0.2'):.2g}, 0.9 {ratio(rows, 'Courant number 0.9'):.2g} times.",
-              0.8 < ratio(rows, "FLIP") < 1.4 and ratio(rows, "Courant number 0.9") < 1.1, quick=False),
-        Claim(f"Core-seconds for the same error: the order is only {order(rows):.2g}, so that these numbers are approximate.", costs(rows)["3 x 3 points"] > 1.1, quick=False),
-    ]
+        claim("basis", not error["linear"] < 5 and not failed(rows, DEFAULTS), stops=stops),
+        claim("points", error["3 x 3 points"] > 1.2 and error["2 x 2 points"] > 2, worst=True),
+        claim("more points", at_finest(rows, six) > best, quick=False, six=at_finest(rows, six) / best,
+              time_of_six=at_finest(rows, six, "core-seconds") / at_finest(rows, DEFAULTS, "core-seconds")),
+        claim("F-bar", 0.8 < error["modified F-bar"] < 1.4, quick=False),
+        claim("transfer", 0.8 < error["FLIP"] < 1.4 and error["Courant number 0.9"] < 1.1, quick=False),
+        claim("cost", costs(rows)["3 x 3 points"] > 1.1, quick=False, order=order(rows))]
 
 
 STUDY = Study(
-    title="Large strain: error over cost",
-    question="How accurate is consolidation where points cross cells?",
-    advice="Use splines and 4 x 4 points per cell and phase; F-bar, transfer and time step matter little.",
-    base="prm/consolidation/large_strain_consolidation.prm",
+    "prm/consolidation/large_strain_consolidation.prm",
     entries={"End time": TIMES[-1], "Output/Interval": TIMES[0], "Output/Graphics": "points"},
-    variants=product(axis("method", METHODS.__getitem__, METHODS), axis("h", mesh, [1 / 10, 1 / 20, 1 / 40])),
-    default={"method": DEFAULTS},
-    quick=lambda labels: labels["h"] > 0.03 and labels["method"] in (DEFAULTS, "linear", "modified F-bar", "2 x 2 points", "3 x 3 points"),
-    measure=measure, verdict=verdict,
-    table=table, chart=WorkPrecision({DEFAULTS: "defaults\n(recommended)", "6 x 6 points": "6 x 6 points", "3 x 3 points": "3 x 3 points", "2 x 2 points": "2 x 2 points", "linear": "linear (worst)"}, "RMS error of p and heights against\nfinite differences (-)"))
+    variants=variants(METHODS, mesh, [1 / 10, 1 / 20, 1 / 40]), default={"method": DEFAULTS}, table=table,
+    quick=lambda labels: labels["h"] > 0.03
+    and labels["method"] in (DEFAULTS, "linear", "modified F-bar", "2 x 2 points", "3 x 3 points"),
+    chart=WorkPrecision({DEFAULTS: "defaults\n(recommended)", "6 x 6 points": "6 x 6 points",
+                         "3 x 3 points": "3 x 3 points", "2 x 2 points": "2 x 2 points", "linear": "linear (worst)"},
+                        "RMS error of p and heights against\nfinite differences (-)"))

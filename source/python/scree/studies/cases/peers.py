@@ -5,13 +5,18 @@ import math
 import subprocess
 
 from scree.studies.charts import Curves, legend_above, tick_axis
-from scree.studies.study import Claim, Study, Variant, compiled, reference_rows
+from scree.studies.study import Study, Variant, compiled, reference_rows
 
-SCENES = {"elastic 2D": "elastic_2d", "elastic 3D": "elastic_3d", "Mohr-Coulomb 3D": "mohr_coulomb_column_3d", "Nor-Sand 2D": "nor_sand_slope_2d",
-          "Nor-Sand 3D": "nor_sand_column_3d", "soil and water 2D": "nor_sand_saturated_slope_2d", "soil and water 3D": "nor_sand_saturated_column_3d"}
+NS = "ns per point and step"
+SCENES = {"elastic 2D": "elastic_2d", "elastic 3D": "elastic_3d", "Mohr-Coulomb 3D": "mohr_coulomb_column_3d",
+          "Nor-Sand 2D": "nor_sand_slope_2d",
+          "Nor-Sand 3D": "nor_sand_column_3d", "soil and water 2D": "nor_sand_saturated_slope_2d",
+          "soil and water 3D": "nor_sand_saturated_column_3d"}
 LIKE = {"two-phase semi-implicit single-point 2D": "soil and water 2D", "slope failure 3D code": "Mohr-Coulomb 3D",
-        "Drucker-Prager 3D": "Mohr-Coulomb 3D", "elastic 2D re-binned": "elastic 2D", "elastic 3D re-binned": "elastic 3D"}
-WANTED = {"elastic 2D": 45, "elastic 3D": 110, "Nor-Sand 2D": 85, "Nor-Sand 3D": 170, "soil and water 2D": 135}  # ns with AVX-512; of soil and water half of a pair
+        "Drucker-Prager 3D": "Mohr-Coulomb 3D", "elastic 2D re-binned": "elastic 2D",
+        "elastic 3D re-binned": "elastic 3D"}
+# ns with AVX-512; of soil and water half of a pair
+WANTED = {"elastic 2D": 45, "elastic 3D": 110, "Nor-Sand 2D": 85, "Nor-Sand 3D": 170, "soil and water 2D": 135}
 
 
 def kernel():
@@ -23,42 +28,38 @@ def measure(run):
     dimension = run.labels["scene"][-2]
     words = subprocess.run([kernel(), dimension], check=True, capture_output=True, text=True).stdout.split()
     ns = float(words[4])
-    return {"kernel ns": ns, "over kernel": run.cost["ns per point and step"] / ns}
-
-
-def peers():
-    """Rows of the other codes, with the scene that they are set beside."""
-    return [{**row, "beside": LIKE.get(row["scene"], row["scene"])} for row in reference_rows("peers")]
+    return {"kernel ns": ns, "over kernel": run.cost[NS] / ns}
 
 
 def fastest_peer(scene):
     """The smallest ns per point and step of another code beside a scene, None without one."""
-    return min((float(peer["ns_low"]) for peer in peers() if peer["beside"] == scene and "kernel" not in peer["code"]), default=None)
+    return min((float(peer["ns_low"]) for peer in reference_rows("peers")
+                if LIKE.get(peer["scene"], peer["scene"]) == scene and "kernel" not in peer["code"]), default=None)
 
 
 def table(rows):
-    return [("scene", "Scree (ns per point and time step)", "over the bare kernel", "fastest other code (ns)", "over Scree"),
-            *((row["scene"], f"{row['ns per point and step']:.0f}", f"{row['over kernel']:.1f}",
-               *((f"{fastest:.0f}", f"{fastest / row['ns per point and step']:.1f}") if (fastest := fastest_peer(row["scene"])) else ("-", "-"))) for row in rows)]
+    def beside(row):
+        fastest = fastest_peer(row["scene"])
+        return (f"{fastest:.0f}", f"{fastest / row[NS]:.1f}") if fastest else ("-", "-")
+    return [("scene", "Scree (ns per point and time step)", "over the bare kernel", "fastest other code (ns)",
+             "over Scree"),
+            *((row["scene"], f"{row[NS]:.0f}", f"{row['over kernel']:.1f}", *beside(row)) for row in rows)]
 
 
-def verdict(rows):
-    slowest = max(rows, key=lambda row: row["over kernel"])
-    claims = [Claim(f"Scree takes {min(row['over kernel'] for row in rows):.1f} to {slowest['over kernel']:.1f} times the time of the bare kernel, most for {slowest['scene']}.",
-                    all(math.isfinite(row["over kernel"]) for row in rows))]
-    factors = {row["scene"]: fastest / row["ns per point and step"] for row in rows if (fastest := fastest_peer(row["scene"]))}
-    claims.append(Claim("The fastest other code, at its best and with any basis, takes " + ", ".join(f"{factor:.1f} ({scene})" for scene, factor in factors.items())
-                        + " times as long.", min(factors.values()) > 1))
-    slow = [f"{row['scene']} {row['ns per point and step']:.0f} ({WANTED[row['scene']]})" for row in rows
-            if row["scene"] in WANTED and row["ns per point and step"] > WANTED[row["scene"]]]
-    claims.append(Claim(f"Above the bound: {'; '.join(slow)}." if slow else "All scenes are within their bounds of speed.", not slow, quick=False))
-    return claims
+def verdict(rows, claim):
+    factors = {row["scene"]: fastest / row[NS] for row in rows if (fastest := fastest_peer(row["scene"]))}
+    slow = [f"{row['scene']} {row[NS]:.0f} ({WANTED[row['scene']]})" for row in rows
+            if row[NS] > WANTED.get(row["scene"], math.inf)]
+    claim = claim.shared(rows=rows, slowest=rows.with_largest("over kernel"), factors=factors, slow="; ".join(slow))
+    return [claim("kernel", all(map(math.isfinite, rows.values["over kernel"]))),
+            claim("other codes", min(factors.values()) > 1),
+            claim("slow" if slow else "fast", not slow, quick=False)]
 
 
 def draw(figure, rows):
     axes = figure.subplots()
     for line, row in enumerate(rows):
-        times = {"bare kernel": (row["kernel ns"], "0.6"), "Scree": (row["ns per point and step"], "C3")}
+        times = {"bare kernel": (row["kernel ns"], "0.6"), "Scree": (row[NS], "C3")}
         if fastest := fastest_peer(row["scene"]):
             times["fastest other code"] = fastest, "C0"
         for offset, (name, (ns, colour)) in enumerate(times.items()):
@@ -72,9 +73,7 @@ def draw(figure, rows):
     legend_above(figure, axes, 3)
 
 
-STUDY = Study(title="Speed beside other codes",
-              question="How fast is Scree beside the bare method and other codes?",
-              advice="Expect 40 to 290 ns per point, time step and core.",
-              base="prm/benchmarks/elastic_2d.prm", measure=measure, verdict=verdict,
-              variants=[Variant({"scene": scene}, {}, f"prm/benchmarks/{name}.prm") for scene, name in SCENES.items()],
-              quick=lambda labels: labels["scene"] == "elastic 2D", table=table, chart=Curves(draw, 4.6, timed=True))
+STUDY = Study(
+    "prm/benchmarks/elastic_2d.prm",
+    variants=[Variant({"scene": scene}, {}, f"prm/benchmarks/{name}.prm") for scene, name in SCENES.items()],
+    quick=lambda labels: labels["scene"] == "elastic 2D", chart=Curves(draw, 4.6, timed=True))

@@ -4,7 +4,7 @@
 import numpy as np
 
 from scree.studies.charts import Curves
-from scree.studies.study import Claim, Study, Variant
+from scree.studies.study import Study, Variant
 
 BIAXIAL, BANK = "biaxial test", "bank"
 LENGTHS = {BIAXIAL: 0.1, BANK: 0.5}  # m
@@ -14,14 +14,16 @@ NS = "ns per point and step"
 
 
 def biaxial(size, length):
-    return Variant({"scene": BIAXIAL, "h": size, "length": length}, {"Mesh/Cell size": f"{size:g}", "Soil/Mohr-Coulomb/Nonlocal length": f"{length:g}",
-                                                                     "Output/Interval": 0.6})
+    entries = {"Mesh/Cell size": f"{size:g}", "Soil/Mohr-Coulomb/Nonlocal length": f"{length:g}",
+               "Output/Interval": 0.6}
+    return Variant({"scene": BIAXIAL, "h": size, "length": length}, entries)
 
 
 def bank(size, length):
     return Variant({"scene": BANK, "h": size, "length": length}, {
-        "Mesh/Cell size": f"{size:.15g}", "Mesh/Upper corner": "20, 7", "Soil/Mohr-Coulomb/Cohesion": 4e3, "Soil/Mohr-Coulomb/Softening strain": 0.1,
-        "Soil/Mohr-Coulomb/Tension cut-off": 0, "Soil/Mohr-Coulomb/Residual cohesion": 500,
+        "Mesh/Cell size": f"{size:.15g}", "Mesh/Upper corner": "20, 7", "Soil/Mohr-Coulomb/Cohesion": 4e3,
+        "Soil/Mohr-Coulomb/Softening strain": 0.1, "Soil/Mohr-Coulomb/Tension cut-off": 0,
+        "Soil/Mohr-Coulomb/Residual cohesion": 500,
         "Soil/Mohr-Coulomb/Nonlocal length": f"{length:g}", "Output/Interval": 5}, "prm/slopes/first_slope.prm")
 
 
@@ -46,40 +48,42 @@ def measure(run):
     shortening = -run.statistics("Obstacle Platen displacement y (m)") / 2
     impulse = run.statistics("Obstacle Platen impulse y (N s)")
     first, last = (np.interp(part, shortening, run.time) for part in (0.0095, 0.0105))
-    return {**found, LOAD: (np.interp(last, run.time, impulse) - np.interp(first, run.time, impulse)) / (last - first) / 1e3,
-            PEAK: np.max(run.statistics("Obstacle Platen force y (N)")) / 1e3, WIDTH: band_width(run.points(), run.labels["h"])}
+    return {**found, LOAD: (np.interp(last, run.time, impulse) - np.interp(first, run.time, impulse)) / (last - first)
+            / 1e3,
+            PEAK: np.max(run.statistics("Obstacle Platen force y (N)")) / 1e3,
+            WIDTH: band_width(run.points(), run.labels["h"])}
 
 
 def group(rows, scene, with_length):
-    return sorted((row for row in rows if row["scene"] == scene and (row["length"] > 0) == with_length), key=lambda row: -row["h"])
+    return rows.where(lambda row: row["scene"] == scene and (row["length"] > 0) == with_length).from_coarse()
 
 
-def verdict(rows):
+def verdict(rows, claim):
     own, averaged = group(rows, BIAXIAL, False), group(rows, BIAXIAL, True)
-    fine = [row for row in averaged if row["h"] <= row["length"] / 2 * 1.0001]
-    loads = max(row[LOAD] for row in fine) / min(row[LOAD] for row in fine) - 1
+    loads = averaged.where(lambda row: row["h"] <= row["length"] / 2 * 1.0001).span[LOAD]
+    apart, coarse, fine, smooth = loads.high / loads.low - 1, own[0], own[-1], averaged[-1]
+    claim = claim.shared(coarse=coarse, fine=fine, smooth=smooth)
     claims = [
-        Claim(f"Biaxial test with the length: the loads at 1 % with cells of at most l/2 part by {100 * loads:.1f} %. Bound: 2 %.", loads <= 0.02, quick=False, worst=True),
-        Claim(f"Without the length, the load falls from {own[0][LOAD]:.1f} to {own[-1][LOAD]:.1f} kPa from cells of {own[0]['h']:g} m to {own[-1]['h']:g} m.",
-              own[-1][LOAD] < 0.9 * own[0][LOAD]),
-        Claim(f"The band is {own[-1][WIDTH] / own[-1]['h']:.1f} cells wide without the length, and {averaged[-1][WIDTH] / averaged[-1]['length']:.2f} l with it "
-              f"(h = {averaged[-1]['h']:g} m).", own[-1][WIDTH] < averaged[-1][WIDTH], quick=False)]
+        claim("loads", apart <= 0.02, quick=False, worst=True, apart=apart),
+        claim("without", fine[LOAD] < 0.9 * coarse[LOAD]),
+        claim("width", fine[WIDTH] < smooth[WIDTH], quick=False, cells=fine[WIDTH] / fine["h"],
+              lengths=smooth[WIDTH] / smooth["length"])]
     without, banks = group(rows, BANK, False), group(rows, BANK, True)
     if len(banks) > 1:
         change, change_without = (of[-1][FRONT] / of[-2][FRONT] - 1 for of in (banks, without))
-        claims.append(Claim(f"Bank with the length: the front changes by {100 * change:+.1f} % from 36 to 48 cells, without it by {100 * change_without:+.1f} %. Bound: 3 %.",
-                            abs(change) <= 0.03, quick=False, worst=True))
-        claims.append(Claim(f"The length changes the front of the bank with 48 cells from {without[-1][FRONT]:.2f} to {banks[-1][FRONT]:.2f} m.", True, quick=False))
-    cost = [f"{100 * (row[NS] / other[NS] - 1):.0f} % at l/h = {row['length'] / row['h']:.0f}" for row in averaged for other in own if other["h"] == row["h"]]
-    claims.append(Claim("Processor time that the average adds to a run: " + ", ".join(cost) + ".", True))
-    return claims
+        claims += [claim("bank", abs(change) <= 0.03, quick=False, worst=True, change=change,
+                         change_without=change_without),
+                   claim("front", True, quick=False, without=without[-1][FRONT], front=banks[-1][FRONT])]
+    cost = [f"{100 * (row[NS] / other[NS] - 1):.0f} % at l/h = {row['length'] / row['h']:.0f}"
+            for row in averaged for other in own.where(h=row["h"])]
+    return [*claims, claim("cost", True, cost=cost)]
 
 
 def table(rows):
-    def text(value, digits):
-        return f"{value:.{digits}f}" if np.isfinite(value) else "-"
-    return [("scene", "h (m)", "l (m)", PEAK, LOAD, WIDTH, FRONT, NS),
-            *((row["scene"], f"{row['h']:.4g}", f"{row['length']:g}", text(row[PEAK], 2), text(row[LOAD], 2), text(row[WIDTH], 3), text(row[FRONT], 2), text(row[NS], 0))
+    forms = {PEAK: ".2f", LOAD: ".2f", WIDTH: ".3f", FRONT: ".2f", NS: ".0f"}
+    return [("scene", "h (m)", "l (m)", *forms),
+            *((row["scene"], f"{row['h']:.4g}", f"{row['length']:g}",
+               *(f"{row[name]:{form}}" if np.isfinite(row[name]) else "-" for name, form in forms.items()))
               for scene in (BIAXIAL, BANK) for with_length in (False, True) for row in group(rows, scene, with_length))]
 
 
@@ -89,14 +93,14 @@ def draw(figure, rows):
         quantity = LOAD if scene == BIAXIAL else FRONT
         for with_length, name in ((False, "without a length"), (True, f"l = {LENGTHS[scene]:g} m")):
             of = group(rows, scene, with_length)
-            axes.plot([row["h"] for row in of], [row[quantity] for row in of], f"C{int(with_length)}o-", markersize=4, label=name)
+            axes.plot(of.values["h"], of.values[quantity], f"C{int(with_length)}o-", markersize=4, label=name)
         axes.set(xlabel="h (m)", ylabel=quantity.replace(", ", " (") + ")", title=scene, xlim=(0, None),
-                 ylim=(0, 1.25 * max(row[quantity] for row in rows if row["scene"] == scene)))
+                 ylim=(0, 1.25 * rows.where(scene=scene).largest[quantity]))
         axes.legend()
 
 
-STUDY = Study(title="Shear bands and cell size", question="Does the strength of softening soil depend on the cells?",
-              advice="Give softening soil a `Nonlocal length` and cells of at most half of it.", base="prm/softening/biaxial.prm",
-              variants=[variant(size, length) for scene, variant in ((BIAXIAL, biaxial), (BANK, bank)) for length in (0., LENGTHS[scene]) for size in SIZES[scene]
-                        if length > 0 or size != 0.0125],
-              measure=measure, verdict=verdict, table=table, chart=Curves(draw), quick=lambda labels: labels["scene"] == BIAXIAL and labels["h"] > 0.04)
+STUDY = Study(
+    "prm/softening/biaxial.prm",
+    variants=[variant(size, length) for scene, variant in ((BIAXIAL, biaxial), (BANK, bank))
+              for length in (0., LENGTHS[scene]) for size in SIZES[scene] if length > 0 or size != 0.0125],
+    chart=Curves(draw), quick=lambda labels: labels["scene"] == BIAXIAL and labels["h"] > 0.04)

@@ -5,8 +5,10 @@ import re
 
 from scree.pictures.tables import name_lines
 from scree.studies.charts import Curves, tick_axis
-from scree.studies.study import Claim, Study, Variant
+from scree.studies.study import Study, Variant
+from scree.studies.words import filled
 
+NS = "ns per point and step"
 # Of the cases of prm/benchmarks: corner of the box (m), cell size (m) and end (s), and the cell sizes here.
 SCENES = {"elastic 2D": ("elastic_2d", (1.28, 1.28), 0.01, 0.4, (0.0285, 0.01, 0.00285, 0.00143)),
           "elastic 3D": ("elastic_3d", (1.28, 1.28, 0.96), 0.02, 0.2, (0.0475, 0.02, 0.01, 0.0064)),
@@ -20,8 +22,8 @@ def variants():
         for size in sizes:
             box = ", ".join(f"{-(-length // size) * size:.9g}" for length in corner)
             part = min(1.5, max(0.1, (size / reference) ** len(corner)))  # about as many updates
-            found.append(Variant({"scene": scene, "h": size}, {"Mesh/Cell size": size, "Mesh/Upper corner": box, "End time": end * part * size / reference},
-                                 f"prm/benchmarks/{name}.prm"))
+            entries = {"Mesh/Cell size": size, "Mesh/Upper corner": box, "End time": end * part * size / reference}
+            found.append(Variant({"scene": scene, "h": size}, entries, f"prm/benchmarks/{name}.prm"))
     return found
 
 
@@ -31,38 +33,36 @@ def measure(run):
     return {"points": points, "MB": memory}
 
 
-def bytes_per_point(rows):
-    """{scene: of the points that the largest run has more than the smallest}."""
-    ends = {scene: [pick((row for row in rows if row["scene"] == scene), key=lambda row: row["points"]) for pick in (min, max)] for scene in SCENES}
-    return {scene: 1e6 * (large["MB"] - small["MB"]) / (large["points"] - small["points"]) for scene, (small, large) in ends.items()}
+def bytes_per_point(rows, scene):
+    """Of the points that the largest run has more than the smallest."""
+    found = rows.where(scene=scene)
+    small, large = found.with_smallest("points"), found.with_largest("points")
+    return 1e6 * (large["MB"] - small["MB"]) / (large["points"] - small["points"])
 
 
-def verdict(rows):
-    times = {scene: [row["ns per point and step"] for row in rows if row["scene"] == scene] for scene in SCENES}
+def verdict(rows, claim):
+    times = {scene: rows.where(scene=scene).values[NS] for scene in SCENES}
     spreads = {scene: max(found) / min(found) for scene, found in times.items() if found}
-    return [Claim("The time per point varies with the number of points by a factor " + ", ".join(f"{value:.2f} ({scene})" for scene, value in spreads.items())
-                  + ". Bound: 1.3.", max(spreads.values()) <= 1.3, quick=False)]
+    return [claim("time", max(spreads.values()) <= 1.3, quick=False, spreads=spreads)]
 
 
 def table(rows):
-    memory = bytes_per_point(rows)
     return [("scene", "points", "ns per point and time step", "bytes per further point"),
-            *((scene, *(", ".join(f"{row[column]:{form}}" for row in rows if row["scene"] == scene) for column, form in (("points", ".1e"), ("ns per point and step", ".0f"))),
-               f"{memory[scene]:.0f}") for scene in SCENES)]
+            *((scene, filled("{:.1e}", found.values["points"]), filled("{:.0f}", found.values[NS]),
+               f"{bytes_per_point(rows, scene):.0f}")
+              for scene in SCENES for found in [rows.where(scene=scene)])]
 
 
 def draw(figure, rows):
     axes = figure.subplots()
     for scene in SCENES:
-        own = [row for row in rows if row["scene"] == scene]
-        axes.plot([row["points"] for row in own], [row["ns per point and step"] for row in own], marker="o", markersize=4, label=scene)
+        own = rows.where(scene=scene)
+        axes.plot(own.values["points"], own.values[NS], marker="o", markersize=4, label=scene)
     axes.set(xscale="log", yscale="log", xlabel="points", ylabel="ns per point and time step, one core")
     tick_axis(axes.yaxis)
     name_lines(axes)
 
 
-STUDY = Study(title="Speed and memory over the number of points",
-              question="What do larger scenes cost?",
-              advice="Expect the time per point to change by less than 1.5 and the memory of the table.",
-              base="prm/benchmarks/elastic_2d.prm", variants=variants(), measure=measure, verdict=verdict,
-              quick=lambda labels: labels["scene"] == "elastic 2D" and labels["h"] > 0.009, table=table, chart=Curves(draw, 3.4, timed=True))
+STUDY = Study(
+    "prm/benchmarks/elastic_2d.prm", variants=variants(),
+    quick=lambda labels: labels["scene"] == "elastic 2D" and labels["h"] > 0.009, chart=Curves(draw, 3.4, timed=True))

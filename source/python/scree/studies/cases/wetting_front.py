@@ -8,14 +8,16 @@ from scipy.integrate import solve_ivp
 from scree.closed_forms import green_ampt_time
 from scree.studies.charts import StabilityMap
 from scree.studies.measures import BOUNDS, cause, classify, roughness
-from scree.studies.study import Claim, Study, axis, product
+from scree.studies.study import Study, axis, product
 
-POND, DEPTH, POROSITY, TOP = 0.2, 0.3, 0.4, 0.5  # m, m, -, m: the pond's height, the front at the end, the soil's surface
+POND, DEPTH, TOP = 0.2, 0.3, 0.5  # m: the pond's height, the front at the end, the soil's surface
+POROSITY = 0.4
 GRAVITY, WATER, GRAINS = 9.81, 1000., 2650.  # m/s^2, kg/m^3, kg/m^3
 MODULUS = 1e5  # Pa, Young's; Poisson's ratio is .3
 
 
-METHODS = {"2 x 2": {"Soil/Points per cell": 2, "Water/Points per cell": 2}, "4 x 4": {"Soil/Points per cell": 4, "Water/Points per cell": 4}}
+METHODS = {"2 x 2": {"Soil/Points per cell": 2, "Water/Points per cell": 2},
+           "4 x 4": {"Soil/Points per cell": 4, "Water/Points per cell": 4}}
 
 
 def time_of(z, k):
@@ -42,11 +44,13 @@ def rigid_front(k):
 
 @functools.cache
 def elastic_front(k, young_modulus=MODULUS, n_cells=100):
-    """Depth of the sharp front in elastic soil, in coordinates of the soil at the start, and fall of the water's centre of mass, m, at time_of(DEPTH, k).
+    """Depth of the sharp front in elastic soil, in coordinates of the soil at the start, and fall of the water's centre
+    of mass, m, at time_of(DEPTH, k).
 
-    Unknowns: displacement s of the soil's cells (X is the depth), Z, and the velocity V of the pond, which is that of the mixture in the wet soil, v_s + n w.
-    With n w = V - v_s and the water's -dp/dx = rho_w [D(v_s + w)/Dt - g + g/k (V - v_s)] each soil cell has an acceleration alpha + beta dV/dt, and p = 0 at the
-    pond's surface and at the front tells dV/dt. All is explicit; the cell with the front is wet in part.
+    Unknowns: displacement s of the soil's cells (X is the depth), Z, and the velocity V of the pond, which is that of
+    the mixture in the wet soil, v_s + n w. With n w = V - v_s and the water's -dp/dx = rho_w [D(v_s + w)/Dt - g + g/k
+    (V - v_s)] each soil cell has an acceleration alpha + beta dV/dt, and p = 0 at the pond's surface and at the front
+    tells dV/dt. All is explicit; the cell with the front is wet in part.
     """
     modulus = young_modulus * 0.7 / (1.3 * 0.4)  # oedometric
     width = TOP / n_cells
@@ -56,17 +60,20 @@ def elastic_front(k, young_modulus=MODULUS, n_cells=100):
     s, v, pond_velocity, front = np.zeros(n_cells), np.zeros(n_cells), 0., 0.
     porosity = np.full(n_cells, POROSITY)
     for _ in range(n_steps):
-        strain = np.concatenate([[0], np.diff(s) / width, [-2 * s[-1] / width]])  # of the faces: no stress above, no motion below
+        # of the faces: no stress above, no motion below
+        strain = np.concatenate([[0], np.diff(s) / width, [-2 * s[-1] / width]])
         ratio = 1 + (strain[1:] + strain[:-1]) / 2  # J
         before, porosity = porosity, 1 - (1 - POROSITY) / ratio
         wet = np.clip((front - upper_faces) / width, 0, 1)
         flux = pond_velocity - v
         slip = flux / porosity
-        convected = slip / ratio * np.concatenate([[0], np.diff(v + slip) / width]) - slip * (porosity - before) / (step * porosity)
+        convected = slip / ratio * np.concatenate([[0], np.diff(v + slip) / width])
+        convected -= slip * (porosity - before) / (step * porosity)
         push = convected - GRAVITY + GRAVITY / k * flux  # -dp/dx over rho_w, but for dv_s/dt (1 - 1/n) and dV/dt / n
         lever = wet * ratio * (1 - porosity) * WATER
         mass = (1 - POROSITY) * GRAINS - lever * (1 - 1 / porosity)
-        alpha = (modulus * np.diff(strain) / width + lever * push + wet * ratio * porosity * WATER * GRAVITY / k * flux) / mass
+        alpha = (modulus * np.diff(strain) / width + lever * push
+                 + wet * ratio * porosity * WATER * GRAVITY / k * flux) / mass
         beta = lever / (porosity * mass)
         pond = POND - np.sum(wet * ratio * porosity) * width
         at_inlet = GRAVITY * pond - slip[0] ** 2 * (1 - porosity[0] ** 2) / 2  # p there over rho_w, at rest
@@ -85,7 +92,8 @@ def elastic_front(k, young_modulus=MODULUS, n_cells=100):
 
 def conductivity(k):
     end = float(time_of(DEPTH, k))
-    return {"Water/Hydraulic conductivity": k, "End time": end, "Output/Interval": end, "Output/Statistics interval": end / 20}
+    return {"Water/Hydraulic conductivity": k, "End time": end, "Output/Interval": end,
+            "Output/Statistics interval": end / 20}
 
 
 def measure(run):
@@ -98,59 +106,55 @@ def measure(run):
     fall = TOP + POND / 2 - np.average(y, weights=volumes)
     front, exact = elastic_front(k)
     rough = roughness(water, float(run.entries["Mesh/Cell size"]), "pressure") / (WATER * GRAVITY * POND)
-    return {**classify(run, {"oscillation of p": rough, "error": abs(fall / exact - 1)}), "cause": cause(run), "fall/exact": fall / exact,
-            "fall/rigid": fall / fall_of(rigid_front(k)), "fall/Green & Ampt": fall / fall_of(DEPTH), "front/exact": (TOP - np.quantile(y, 0.01)) / front,
+    return {**classify(run, {"oscillation of p": rough, "error": abs(fall / exact - 1)}), "cause": cause(run),
+            "fall/exact": fall / exact,
+            "fall/rigid": fall / fall_of(rigid_front(k)), "fall/Green & Ampt": fall / fall_of(DEPTH),
+            "front/exact": (TOP - np.quantile(y, 0.01)) / front,
             "volume error": max(run.statistics("Volume error (-)"))}
 
 
-def verdict(rows):
-    def of(method):
-        return [row for row in ended if row["points"] == method]
+def verdict(rows, claim):
+    ended = rows.where(ended=True)
+    few, many = ended.where(points="2 x 2"), ended.where(points="4 x 4")
+    conductivities, sizes = (sorted(set(ended.values[name]), reverse=True) for name in ("k", "h"))
+    largest, coarse, fine = conductivities[0], sizes[0], sizes[-1]
+
+    def off(chosen, name="fall/exact"):
+        return max(abs(value - 1) for value in chosen.values[name])
 
     def gain(chosen):
-        return 100 * sum(row["gain"] for row in chosen) / len(chosen)
+        """Mean, over the energy released."""
+        return sum(chosen.values["gain"]) / chosen.n
 
-    def most(chosen):
-        return 100 * max(row["gain"] for row in chosen)
-
-    def off(name):
-        return max(abs(row[name] - 1) for row in of("4 x 4"))
-    ended = [row for row in rows if row["ended"]]
-    conductivities = sorted({row["k"] for row in ended}, reverse=True)
-    fine, coarse = (pick(row["h"] for row in ended) for pick in (min, max))
-    errors = {h: [abs(row["fall/exact"] - 1) for row in of("4 x 4") if row["h"] == h] for h in sorted({row["h"] for row in ended})}
-    fronts = [row["front/exact"] for row in of("4 x 4") if row["h"] == fine]
-    few = [abs(row["fall/exact"] - 1) for row in of("2 x 2") if row["h"] == coarse]
-    alike = [row for row in of("4 x 4") if row["h"] >= 0.025]
+    errors = {h: off(many.where(h=h)) for h in sizes}
+    fronts = many.where(h=fine).span["front/exact"]
+    inertia = abs(fall_of(rigid_front(1e-3)) / fall_of(DEPTH) - 1)
+    stiff = abs(elastic_front(largest, 100 * MODULUS)[1] / fall_of(rigid_front(largest)) - 1)
+    alike = many.where(lambda row: row["h"] >= 0.025)
+    claim = claim.shared(rows=rows, ended=ended, many=many, few=few, fine=fine, coarse=coarse,
+                         conductivities=conductivities)
     return [
-        Claim(f"With 4 x 4 points per cell the fall of the water deviates by up to {max(map(max, errors.values())):.1%} from the reference. "
-              + "With h = " + ", ".join(f"{h:g}" for h in reversed(errors)) + " m it is " + ", ".join(f"{max(error):.1%}" for error in reversed(errors.values()))
-              + f". Bound: 3 % on the finest mesh. It deviates by up to {off('fall/rigid'):.1%} from the fall in rigid soil, by up to {off('fall/Green & Ampt'):.1%} from Green & Ampt.",
-              max(errors[fine]) < 0.03, quick=False),
-        Claim("At the end the fall of the reference is " + ", ".join(f"{elastic_front(k)[1] / fall_of(DEPTH):.4f}" for k in conductivities) + " times that of Green & Ampt at k = "
-              + ", ".join(f"{k:g}" for k in conductivities) + " m/s. In rigid soil it is " + ", ".join(f"{fall_of(rigid_front(k)) / fall_of(DEPTH):.4f}" for k in conductivities)
-              + f" times (inertia alone). At k = 1e-3 m/s {abs(fall_of(rigid_front(1e-3)) / fall_of(DEPTH) - 1):.1g} of the fall is due to inertia. In sand a hundred times as stiff it is within "
-              f"{abs(elastic_front(max(conductivities), 100 * MODULUS)[1] / fall_of(rigid_front(max(conductivities))) - 1):.2%} of that in rigid soil.",
-              abs(fall_of(rigid_front(1e-3)) / fall_of(DEPTH) - 1) < 1e-5
-              and abs(elastic_front(max(conductivities), 100 * MODULUS)[1] / fall_of(rigid_front(max(conductivities))) - 1) < 1e-3),
-        Claim(f"At h = {fine:g} m the front's tip (99 % of the water is above it) is at {min(fronts):.2f} to {max(fronts):.2f} of the sharp front's depth.",
-              0.95 < min(fronts) and max(fronts) < 1.05),
-        Claim(f"The artificial energy gain where water enters dry soil is {gain(of('2 x 2')):.2g} % of the energy released by its fall with 2 x 2 points per cell (up to {most(of('2 x 2')):.2g} %). "
-              f"With 4 x 4 it is {gain(alike):.2g} % (up to {most(of('4 x 4')):.2g} %); means over cells of 0.025 m and more.",
-              gain(alike) < gain(of("2 x 2")) and most(of("4 x 4")) < 100 * BOUNDS["gain"]),
-        Claim(f"{len(ended)} of {len(rows)} runs come to their end.", len(ended) == len(rows)),
-        Claim(f"At h = {coarse:g} m two points per cell and axis deviate by up to {max(few):.0%}, four by {max(errors[coarse]):.0%}.", max(few) > max(errors[coarse])),
-    ]
+        claim("fall", errors[fine] < 0.03, quick=False, largest=max(errors.values()), sizes=sizes,
+              errors=list(errors.values()), rigid=off(many, "fall/rigid"), green_ampt=off(many, "fall/Green & Ampt")),
+        claim("reference", inertia < 1e-5 and stiff < 1e-3, inertia=inertia, stiff=stiff,
+              falls=[elastic_front(k)[1] / fall_of(DEPTH) for k in conductivities],
+              rigid=[fall_of(rigid_front(k)) / fall_of(DEPTH) for k in conductivities]),
+        claim("tip", 0.95 < fronts.low and fronts.high < 1.05, fronts=fronts),
+        claim("gain", gain(alike) < gain(few) and many.largest["gain"] < BOUNDS["gain"], gain_of_few=gain(few),
+              gain_of_many=gain(alike)),
+        claim("end", ended.n == rows.n),
+        claim("points", off(few.where(h=coarse)) > errors[coarse], error_of_few=off(few.where(h=coarse)),
+              error_of_many=errors[coarse])]
 
 
-STUDY = Study(title="Infiltration into dry soil",
-              question="How fast does a pond sink into dry sand?",
-              advice="Use 4 x 4 points per cell and h of 0.025 to 0.05 m; finer cells do not help at high conductivity.",
-              base="prm/seepage/saturated_rest.prm", needs_end=False,
-              entries={"Mesh/Upper corner": "0.2, 0.8", "Soil/Region": f"y < {TOP}", "Soil/Linear elastic/Young's modulus": MODULUS,
-                       "Water/Region": f"y > {TOP} && y < {TOP + POND}", "Water/Initial pressure": "none"},
-              variants=product(axis("points", METHODS.get, list(METHODS)), axis("h", "Mesh/Cell size", [0.1, 0.05, 0.025, 0.0125]),
-                               axis("k", conductivity, [0.1, 0.03, 0.01])),
-              quick=lambda labels: (labels["h"] in (0.1, 0.025) and labels["k"] == 0.03) or list(labels.values()) == ["4 x 4", 0.0125, 0.1],
-              measure=measure, verdict=verdict, default={"points": "4 x 4"},
-              chart=StabilityMap("k", "h", panels=["points"], xlabel="k (m/s)", ylabel="cell size (m)"))
+STUDY = Study(
+    "prm/seepage/saturated_rest.prm", needs_end=False,
+    entries={"Mesh/Upper corner": "0.2, 0.8", "Soil/Region": f"y < {TOP}",
+             "Soil/Linear elastic/Young's modulus": MODULUS,
+             "Water/Region": f"y > {TOP} && y < {TOP + POND}", "Water/Initial pressure": "none"},
+    variants=product(axis("points", METHODS.get, list(METHODS)),
+                     axis("h", "Mesh/Cell size", [0.1, 0.05, 0.025, 0.0125]),
+                     axis("k", conductivity, [0.1, 0.03, 0.01])),
+    quick=lambda labels: (labels["h"] in (0.1, 0.025) and labels["k"] == 0.03)
+    or list(labels.values()) == ["4 x 4", 0.0125, 0.1], default={"points": "4 x 4"},
+    chart=StabilityMap("k", "h", panels=["points"], xlabel="k (m/s)", ylabel="cell size (m)"))
