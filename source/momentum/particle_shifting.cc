@@ -32,8 +32,7 @@ namespace scree
   {
     if (rate == 0.)
       return;
-    pressure.reinit(volume_inside);
-    pressure.reinit(source);
+    volume_inside.reinit(pressure.numbering().partitioner());
     shifts->reinit();
   }
 
@@ -46,7 +45,7 @@ namespace scree
     volume_inside = 0.;
     for (const MixtureCell<dim> &cell : mixture.cells())
       {
-        const unsigned int *vertices = pressure.vertices_of(cell.cell);
+        const unsigned int *vertices = pressure.numbering().nodes(cell.cell);
         if (std::all_of(vertices, vertices + cell.n_vertices, [&](const unsigned int vertex) {
               return surface.kind(vertex) == PressureDofType::unknown;
             }))
@@ -63,17 +62,19 @@ namespace scree
     const FreeSurface<dim> &surface = pressure.free_surface();
     const double part               = -std::expm1(-rate * time_step);
     find_inside(mixture);
-    source = 0.;
-    for (const unsigned int vertex : surface.wet_vertices())
-      if (surface.kind(vertex) == PressureDofType::unknown && surface.is_free_water(vertex))
-        {
-          const double surplus = surface.fill(vertex) - 1., volume = surface.volume_under(vertex);
-          const bool inside = volume_inside.local_element(vertex) > (1. - 1e-9) * volume;
-          // At the free surface a deficit is expected: only an excess is corrected.
-          if (surplus > closures::least_surplus || (inside && surplus < -closures::least_surplus))
-            source.local_element(vertex) = part * surplus * volume / time_step;
-        }
-    if (source.linfty_norm() == 0.)
+    source.clear();
+    bool is_any = false;
+    for (const unsigned int vertex : surface.unknowns())
+      {
+        const double surplus = surface.fill(vertex) - 1., volume = surface.volume_under(vertex);
+        const bool inside = volume_inside.local_element(vertex) > (1. - 1e-9) * volume;
+        // At the free surface a deficit is expected: only an excess is corrected.
+        const bool counts = surplus > closures::least_surplus || (inside && surplus < -closures::least_surplus);
+        const bool moves  = counts && surface.is_free_water(vertex);
+        source.push_back(moves ? part * surplus * volume / time_step : 0.);
+        is_any = is_any || moves;
+      }
+    if (!Utilities::MPI::logical_or(is_any, grid.communicator()))
       return false;
     pressure.solve_potential(source, balance);
     return true;
@@ -82,8 +83,7 @@ namespace scree
 
   template <int dim>
   void ParticleShifting<dim>::find_shifts(const Mixture<dim> &mixture,
-                                          const NodalField<dim> &water_field,
-                                          const PoreField<dim> &pores,
+                                          const WetNodes<dim> &nodes,
                                           const double time_step)
   {
     shifts->clear();
@@ -93,8 +93,8 @@ namespace scree
     const double most             = 0.1 * grid.cell_size();
     for (const unsigned int node : shifts->active_nodes())
       {
-        const double mass = water_field[node][NodalField<dim>::mass];
-        const bool moves  = mass > 0. && !(pores[node][PoreField<dim>::grain_fraction] > 0.);
+        const double mass = nodes.water[node][NodalField<dim>::mass];
+        const bool moves  = mass > 0. && !(nodes.pores[node][Pores::grain_fraction] > 0.);
         double *values    = (*shifts)[node];
         Tensor<1, dim> shift;
         for (unsigned int c = 0; c < dim && moves; ++c)
@@ -111,8 +111,7 @@ namespace scree
   template <int dim>
   void ParticleShifting<dim>::apply(WaterPhase<dim> &water,
                                     const Mixture<dim> &mixture,
-                                    const NodalField<dim> &water_field,
-                                    const PoreField<dim> &pores,
+                                    const WetNodes<dim> &nodes,
                                     const double time_step,
                                     Budget<dim> &balance)
   {
@@ -122,7 +121,7 @@ namespace scree
       return; // Water that rides on the soil's points moves with them.
     if (!find_potential(mixture, time_step, balance))
       return;
-    find_shifts(mixture, water_field, pores, time_step);
+    find_shifts(mixture, nodes, time_step);
     with_nodes_1d(grid, [&](auto n) { move<n>(water, balance); });
   }
 

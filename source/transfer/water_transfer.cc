@@ -96,13 +96,9 @@ namespace scree
 
   template <int dim>
   template <int n, bool is_affine>
-  void WaterTransfer<dim>::add_water(const WaterPhase<dim> &water,
-                                     Mixture<dim> &mixture,
-                                     NodalField<dim> &field,
-                                     NodalField<dim> &excess,
-                                     PoreField<dim> &pores) const
+  void WaterTransfer<dim>::add_water(const WaterPhase<dim> &water, Mixture<dim> &mixture, WetNodes<dim> &nodes) const
   {
-    using Pores                   = typename PorosityOfParts<dim>::Pores;
+    using PoresAbout              = typename PorosityOfParts<dim>::Pores;
     constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
     const SoilBody<dim> *carrier  = water.carrier();
     const double width            = grid.cell_size();
@@ -123,9 +119,9 @@ namespace scree
           if (porosity != nullptr)
             return porosity->at(x);
           if (carrier == nullptr)
-            return Pores{ 1., 0., 0. };
+            return PoresAbout{ 1., 0., 0. };
           const double porous = std::max(carrier->porosity(point.properties), smallest_porosity);
-          return Pores{ 1. / porous,
+          return PoresAbout{ 1. / porous,
                         carrier->drag->linear(porous) / porous,
                         (1. - porous) * carrier->drag->inertial(porous) / porous };
         };
@@ -134,7 +130,7 @@ namespace scree
           const double *properties = point.properties, *affine = properties + layout.affine;
           const double mass = properties[layout.mass], volume = properties[layout.volume];
           sums.template add_momentum<is_affine>(shape, mass, properties + layout.velocity, affine);
-          const Pores about = pores_at(point, shape.x);
+          const PoresAbout about = pores_at(point, shape.x);
           const double more = about.inverse_porosity - 1.;
           const double bulk = about.inverse_porosity * volume;
           add_row<dim>(bulk * vertex_values(shape.x), totals.bulk_at_vertex);
@@ -160,18 +156,17 @@ namespace scree
         });
         mixture.cells()[record] = totals;
 
-        field.activate_cell(cell.cell);
-        sums.scatter(grid.nodes(cell.cell), field);
+        const unsigned int *of_cell = grid.nodes(cell.cell);
+        nodes.water.activate_cell(cell.cell);
+        sums.scatter(of_cell, nodes.water);
         if (has_pores)
           {
-            const unsigned int *nodes = grid.nodes(cell.cell);
-            pores.activate_cell(cell.cell);
-            scatter<dim, n>(grains_about, nodes, PoreField<dim>::local_solid_volume, pores);
-            excess.activate_cell(cell.cell);
-            excess_sums.scatter(nodes, excess);
-            scatter<dim, n>(inertia, nodes, PoreField<dim>::flux_inertia, pores);
-            scatter<dim, n>(drag, nodes, PoreField<dim>::drag, pores);
-            scatter<dim, n>(inertial, nodes, PoreField<dim>::inertial_drag, pores);
+            nodes.pores.activate_cell(cell.cell);
+            excess_sums.scatter_momentum(of_cell, Pores::excess_mass, nodes.pores);
+            scatter<n>(grains_about, of_cell, Pores::local_solid_volume, nodes.pores);
+            scatter<n>(inertia, of_cell, Pores::flux_inertia, nodes.pores);
+            scatter<n>(drag, of_cell, Pores::drag, nodes.pores);
+            scatter<n>(inertial, of_cell, Pores::inertial_drag, nodes.pores);
           }
       }
   }
@@ -180,7 +175,7 @@ namespace scree
   template <int dim>
   template <int n, TransferMethod method>
   double WaterTransfer<dim>::move_water(WaterPhase<dim> &water,
-                                        const MixtureNodes<dim> &nodes,
+                                        const WetNodes<dim> &nodes,
                                         const Mixture<dim> &mixture,
                                         const PressureOfCell<dim> &vertex_pressure,
                                         const double time_step) const
@@ -207,7 +202,7 @@ namespace scree
   template <int n, TransferMethod method>
   void WaterTransfer<dim>::move_cell(const WaterPhase<dim> &water,
                                      const CellPoints<dim> &cell,
-                                     const MixtureNodes<dim> &nodes,
+                                     const WetNodes<dim> &nodes,
                                      const PorosityOfParts<dim> *porosity,
                                      const Multilinear<dim> &pressure,
                                      const double time_step,
@@ -221,7 +216,7 @@ namespace scree
     const bool is_alone     = water.carrier() == nullptr;
     const CellVelocity<dim, n> velocity(ids, nodes.water, width);
     std::optional<PoreVelocity<dim, n>> by_place;
-    if (is_alone && PoreVelocity<dim, n>::differs(ids, nodes.pores))
+    if (is_alone && PoreVelocity<dim, n>::differs(ids, nodes))
       by_place.emplace(ids, velocity, nodes, width);
 
     for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
@@ -264,24 +259,20 @@ namespace scree
 
 
   template <int dim>
-  void WaterTransfer<dim>::to_grid(const WaterPhase<dim> &water,
-                                   Mixture<dim> &mixture,
-                                   NodalField<dim> &field,
-                                   NodalField<dim> &excess,
-                                   PoreField<dim> &pores) const
+  void WaterTransfer<dim>::to_grid(const WaterPhase<dim> &water, Mixture<dim> &mixture, WetNodes<dim> &nodes) const
   {
     with_nodes_1d(grid, [&](auto n) {
       if (carries_affine(method))
-        add_water<n, true>(water, mixture, field, excess, pores);
+        add_water<n, true>(water, mixture, nodes);
       else
-        add_water<n, false>(water, mixture, field, excess, pores);
+        add_water<n, false>(water, mixture, nodes);
     });
   }
 
 
   template <int dim>
   double WaterTransfer<dim>::to_points(WaterPhase<dim> &water,
-                                       const MixtureNodes<dim> &nodes,
+                                       const WetNodes<dim> &nodes,
                                        const Mixture<dim> &mixture,
                                        const PressureOfCell<dim> &pressure,
                                        const double time_step) const

@@ -100,24 +100,6 @@ namespace scree
   template class ViscousForce<3>;
 
 
-  namespace
-  {
-    template <int dim>
-    SoilAndWater<dim> velocities(const MixtureNodes<dim> &nodes, const unsigned int node)
-    {
-      return { vector_of<dim>(nodes.soil[node] + NodalField<dim>::velocity),
-               vector_of<dim>(nodes.water[node] + NodalField<dim>::velocity) };
-    }
-
-    template <int dim>
-    void add(SoilAndWater<dim> &to, const double factor, const SoilAndWater<dim> &other)
-    {
-      to.soil += factor * other.soil;
-      to.water += factor * other.water;
-    }
-  } // namespace
-
-
   template <int dim>
   ViscousStep<dim>::ViscousStep(const BackgroundGrid<dim> &grid,
                                 const WaterParameters &parameters,
@@ -214,33 +196,26 @@ namespace scree
         find_impulses(*motion, bed, 0., time_step);
         Vector image(active.size()); // (A + dt K) direction
         for (unsigned int i = 0; i < active.size(); ++i)
-          {
-            image[i] = pairs[i].impulses(direction[i]);
-            add(image[i], -1., pairs[i].free_part(impulses_at(active[i])));
-          }
+          image[i] = pairs[i].impulses(direction[i]) - pairs[i].free_part(impulses_at(active[i]));
         const double length = energy / product(direction, image);
         for (unsigned int i = 0; i < active.size(); ++i)
           {
-            add(velocity[i], length, direction[i]);
-            add(residual[i], -length, image[i]);
+            velocity[i] += length * direction[i];
+            residual[i] += -length * image[i];
             scaled[i] = pairs[i].solve(residual[i]);
           }
         const double before = energy;
         energy              = product(residual, scaled);
         for (unsigned int i = 0; i < active.size(); ++i)
-          {
-            SoilAndWater<dim> next = scaled[i];
-            add(next, energy / before, direction[i]);
-            direction[i] = next;
-          }
+          direction[i] = scaled[i] + energy / before * direction[i];
       }
     return iteration;
   }
 
 
   template <int dim>
-  void ViscousStep<dim>::apply(const MixtureNodes<dim> &nodes,
-                               const TwoPhaseMomentum<dim> &step,
+  void ViscousStep<dim>::apply(WetNodes<dim> &nodes,
+                               TwoPhaseMomentum<dim> &step,
                                CutCellContact<dim> &bed,
                                const double time_step,
                                Budget<dim> &balance)
@@ -248,10 +223,10 @@ namespace scree
     if (water_viscosity == 0.)
       return;
     const TimedPart part(timer, TimerSection::nodes);
-    active = nodes.pores.active_nodes();
+    active = nodes.active();
     pairs.clear();
     for (const unsigned int node : active)
-      pairs.push_back(step.drag_block_at(nodes, node));
+      pairs.push_back(step.drag_block_at(node));
     constexpr double stable = 2.; // beyond, an explicit step turns the fastest motion round and makes it grow
     const bool is_long      = time_step * largest_rate() > stable;
     find_impulses(nodes.water, is_long ? &bed : nullptr, 1., time_step);
@@ -259,7 +234,7 @@ namespace scree
       {
         Vector velocity;
         for (const unsigned int node : active)
-          velocity.push_back(velocities(nodes, node));
+          velocity.push_back(nodes.velocities(node));
         const unsigned int n_iterations = solve(velocity, &bed, time_step);
         if (Utilities::MPI::this_mpi_process(grid.communicator()) == 0)
           balance.n_viscous_iterations += n_iterations;
@@ -269,7 +244,7 @@ namespace scree
         bed.take_viscous_force(*motion, water_viscosity, time_step);
       }
     for (const unsigned int node : active)
-      step.push(nodes, node, impulses_at(node), balance);
+      step.push(node, impulses_at(node), balance);
     nodes.update_velocity_ghosts();
     if (is_long && bed.no_slip()) // which counts its own impulses
       find_impulses(*motion, nullptr, 1., time_step);
@@ -277,7 +252,7 @@ namespace scree
 
 
   template <int dim>
-  void ViscousStep<dim>::count_dissipation(const MixtureNodes<dim> &nodes, Budget<dim> &balance) const
+  void ViscousStep<dim>::count_dissipation(const WetNodes<dim> &nodes, Budget<dim> &balance) const
   {
     for (const unsigned int node : active)
       {

@@ -29,8 +29,7 @@ namespace scree
     /// Moves points of water's own, after the step's solve and before they are sorted. Collective.
     void apply(WaterPhase<dim> &water,
                const Mixture<dim> &mixture,
-               const NodalField<dim> &water_field,
-               const PoreField<dim> &pores,
+               const WetNodes<dim> &nodes,
                const double time_step,
                Budget<dim> &balance);
 
@@ -43,10 +42,7 @@ namespace scree
     bool find_potential(const Mixture<dim> &mixture, const double time_step, Budget<dim> &balance);
 
     /// The way of the nodes, m, that this flow makes of water.
-    void find_shifts(const Mixture<dim> &mixture,
-                     const NodalField<dim> &water_field,
-                     const PoreField<dim> &pores,
-                     const double time_step);
+    void find_shifts(const Mixture<dim> &mixture, const WetNodes<dim> &nodes, const double time_step);
 
     /// Moves the points with the nodes.
     template <int n>
@@ -57,7 +53,8 @@ namespace scree
     PorePressure<dim> &pressure;
     const dealii::Tensor<1, dim> gravity;
     const double rate; // 1/s
-    VertexVector volume_inside, source;
+    VertexVector volume_inside;
+    std::vector<double> source;                 // by owned unknown, m^3/s
     std::optional<NodeValues<dim, dim>> shifts; // of water, m
   };
 } // namespace scree

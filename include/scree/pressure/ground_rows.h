@@ -3,8 +3,8 @@
 #define scree_pressure_ground_rows_h
 
 #include <scree/mesh/cut_cells.h>
-#include <scree/pressure/pressure_pair.h>
-#include <scree/transfer/water_transfer.h>
+#include <scree/mesh/node_rows.h>
+#include <scree/mixture/wet_nodes.h>
 
 #include <vector>
 
@@ -118,12 +118,12 @@ namespace scree
     /// light, it hardly counts. Finds the flow of the velocity alone.
     /// @param least_mass at which a node counts wholly, kg
     /// @param phase of the row; ghosts hold values
-    /// @param pores of a mixture; null: soil without water
+    /// @param nodes of a mixture; null: soil without water
     void add(const GroundRow<dim> &row,
              const CutFacet<dim> &facet,
              const double least_mass,
              const NodalField<dim> &phase,
-             const PoreField<dim> *pores = nullptr);
+             const WetNodes<dim> *nodes = nullptr);
 
     /// Adds the forces of the ground under tractions, Pa, to those on u and q, N: this rank's part of -N^T t.
     void add_forces(const Vectors &tractions, FlowField<dim> &forces) const;
@@ -177,6 +177,41 @@ namespace scree
     std::vector<unsigned int> corners;
     std::vector<unsigned int> number_of_node; // by node and phase
     std::vector<NodeRow> motions;             // by number, m/s
+  };
+
+  /// Pressures by owned unknown, Pa, and tractions by row of the ground, Pa; or flows, m^dim/s.
+  template <int dim>
+  struct PressuresAndTractions
+  {
+    std::vector<double> pressures;               ///< by owned unknown
+    typename GroundRows<dim>::Vectors tractions; ///< by row
+
+    /// All is 0.
+    void clear(const std::size_t n_pressures, const std::size_t n_rows)
+    {
+      pressures.assign(n_pressures, 0.);
+      tractions.assign(n_rows, dealii::Tensor<1, dim>());
+    }
+
+    /// *this = factor * *this + other_factor * other.
+    void sadd(const double factor, const double other_factor, const PressuresAndTractions &other)
+    {
+      for (unsigned int i = 0; i < pressures.size(); ++i)
+        pressures[i] = factor * pressures[i] + other_factor * other.pressures[i];
+      for (unsigned int k = 0; k < tractions.size(); ++k)
+        tractions[k] = factor * tractions[k] + other_factor * other.tractions[k];
+    }
+
+    /// This rank's part of the scalar product.
+    double operator*(const PressuresAndTractions &other) const
+    {
+      double sum = 0.;
+      for (unsigned int i = 0; i < pressures.size(); ++i)
+        sum += pressures[i] * other.pressures[i];
+      for (unsigned int k = 0; k < tractions.size(); ++k)
+        sum += tractions[k] * other.tractions[k];
+      return sum;
+    }
   };
 } // namespace scree
 

@@ -31,12 +31,10 @@ namespace scree
     {
       soil.reinit();
       mixture.reinit();
-      pores.reinit();
-      water_field.reinit();
-      excess.reinit();
+      nodes.reinit();
       pressure.reinit();
       wall_gaps.reinit();
-      momentum.reinit();
+      momentum.reinit(grid.n_owned_nodes());
       viscosity.reinit();
       contact.reinit();
       shifting.reinit();
@@ -52,7 +50,7 @@ namespace scree
       activate_nodes();
       pressure.locate(mixture);
       soil.field.clear();
-      water_field.clear(); // sums, not velocities
+      nodes.water.clear(); // sums, not velocities
     }
     void to_grid(const double time) override;
     void solve(const double time_step, StepReport<dim> &report) override;
@@ -73,7 +71,7 @@ namespace scree
     NodalForces nodal_forces(const double time_step) const override
     {
       NodalForces sums;
-      add_nodal_forces(soil.field, &water_field, forces, time_step, sums);
+      add_nodal_forces(soil.field, &nodes.water, forces, time_step, sums);
       return sums;
     }
     SolverState<dim> solver_state() const override
@@ -103,12 +101,7 @@ namespace scree
     void activate_nodes()
     {
       for (const MixtureCell<dim> &cell : mixture.cells())
-        {
-          soil.field.activate_cell(cell.cell);
-          water_field.activate_cell(cell.cell);
-          excess.activate_cell(cell.cell);
-          pores.activate_cell(cell.cell);
-        }
+        nodes.activate_cell(cell.cell);
     }
 
     /// What the nodes' sums over ranks say of the discharge, and the force of the old pressure. Collective.
@@ -122,11 +115,7 @@ namespace scree
       activate_nodes();
       pressure.locate(mixture);
       soil.add_loads(time_step); // Pressure is implicit, so the load is that of the step's end.
-      soil.field.add_contributions();
-      water_field.add_contributions();
-      pores.add_contributions();
-      soil.field.scale_inertia(forces.mass_scaling());
-      water_field.scale_inertia(forces.mass_scaling());
+      nodes.add_contributions(forces.mass_scaling());
       wall_gaps.release(forces, time_step);
       find_pair(time_step);
     }
@@ -136,22 +125,22 @@ namespace scree
     void load_soil_with_water();
 
     /// Pressure and tractions of the ground, and the corrector. Collective.
-    void find_end_of_step(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget);
+    void find_end_of_step(const double time_step, Budget<dim> &budget);
 
     /// The solve where water keeps its place: the pressure is that of its points.
-    void solve_with_held_water(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget)
+    void solve_with_held_water(const double time_step, Budget<dim> &budget)
     {
       load_soil_with_water();
-      momentum.predict(nodes, time_step, transfer.kept(time_step), budget);
+      momentum.predict(time_step, transfer.kept(time_step), budget);
       contact.begin_step(mixture, pressure.free_surface());
-      find_end_of_step(nodes, time_step, budget);
+      find_end_of_step(time_step, budget);
     }
 
     /// The water's part of to_points().
     void move_water(const double time_step, StepReport<dim> &report);
 
     /// Books what is known at the end of a step only. Collective.
-    void end_step(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget)
+    void end_step(const double time_step, Budget<dim> &budget)
     {
       {
         const TimedPart part(timer, TimerSection::nodes);
@@ -178,9 +167,7 @@ namespace scree
     SolidPhase<dim> soil;
     WaterTransfer<dim> transfer;
     Mixture<dim> mixture;
-    PoreField<dim> pores;
-    NodalField<dim> water_field;
-    NodalField<dim> excess; // see WaterTransfer::to_grid()
+    WetNodes<dim> nodes;
     GroundGaps<dim> ground_gaps;
     PorePressure<dim> pressure;
     WallGaps<dim> wall_gaps;

@@ -67,15 +67,15 @@ namespace scree
 
     /// Changes the predicted velocities of `nodes`, whose ghosts hold values before and after; nothing without
     /// viscosity. Collective; throws if the solve does not converge.
-    void apply(const MixtureNodes<dim> &nodes,
-               const TwoPhaseMomentum<dim> &step,
+    void apply(WetNodes<dim> &nodes,
+               TwoPhaseMomentum<dim> &step,
                CutCellContact<dim> &bed,
                const double time_step,
                Budget<dim> &balance);
 
     /// Adds the energy that the impulses of apply() have taken to the balance, when the velocities of the step are
     /// known.
-    void count_dissipation(const MixtureNodes<dim> &nodes, Budget<dim> &balance) const;
+    void count_dissipation(const WetNodes<dim> &nodes, Budget<dim> &balance) const;
 
   private:
     using Vector = std::vector<SoilAndWater<dim>>; // an entry an owned node on which points act
@@ -105,7 +105,7 @@ namespace scree
     {
       double sum = 0;
       for (unsigned int i = 0; i < a.size(); ++i)
-        sum += a[i].soil * b[i].soil + a[i].water * b[i].water;
+        sum += a[i] * b[i];
       return dealii::Utilities::MPI::sum(sum, grid.communicator());
     }
 

@@ -66,7 +66,7 @@ namespace scree
 
     /// Finds the rows of a step, with the tractions of the last one, from predicted velocities, whose ghosts hold
     /// values; null without ground.
-    GroundRows<dim> *find_rows(const MixtureNodes<dim> &nodes,
+    GroundRows<dim> *find_rows(const WetNodes<dim> &nodes,
                                const Mixture<dim> &mixture,
                                const FreeSurface<dim> &surface,
                                const double time_step);
@@ -84,7 +84,7 @@ namespace scree
     void count_rows(const TractionSolver<dim> &solver, const double time_step, Budget<dim> &balance);
 
     /// Books the tractions of the rows over a step, once the nodes have moved; ghosts of `nodes` hold values.
-    void count_rows(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &balance);
+    void count_rows(const WetNodes<dim> &nodes, const double time_step, Budget<dim> &balance);
 
     /// Adds what obstacles bear of the water's pressure in a step of `time_step` s.
     void count_pressure(const Mixture<dim> &mixture,
@@ -140,7 +140,7 @@ namespace scree
                  const Phase phase,
                  const bool is_unilateral,
                  const double mass_of_cell,
-                 const MixtureNodes<dim> &nodes,
+                 const WetNodes<dim> &nodes,
                  const double time_step);
 
     /// A row of a segment, with the traction of the last solve.
