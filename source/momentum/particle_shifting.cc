@@ -12,11 +12,13 @@ namespace scree
   template <int dim>
   ParticleShifting<dim>::ParticleShifting(const BackgroundGrid<dim> &grid,
                                           const Constraints<dim> &constraints,
+                                          const FreeSurface<dim> &surface,
                                           PorePressure<dim> &pressure,
                                           const Tensor<1, dim> &gravity,
                                           const double rate)
       : grid(grid)
       , constraints(constraints)
+      , surface(surface)
       , pressure(pressure)
       , gravity(gravity)
       , rate(rate)
@@ -32,7 +34,7 @@ namespace scree
   {
     if (rate == 0.)
       return;
-    volume_inside.reinit(pressure.numbering().partitioner());
+    volume_inside.reinit(grid.vertices().partitioner());
     shifts->reinit();
   }
 
@@ -40,12 +42,11 @@ namespace scree
   template <int dim>
   void ParticleShifting<dim>::find_inside(const Mixture<dim> &mixture)
   {
-    const FreeSurface<dim> &surface = pressure.free_surface();
     volume_inside.zero_out_ghost_values();
     volume_inside = 0.;
     for (const MixtureCell<dim> &cell : mixture.cells())
       {
-        const unsigned int *vertices = pressure.numbering().nodes(cell.cell);
+        const unsigned int *vertices = grid.vertices().nodes(cell.cell);
         if (std::all_of(vertices, vertices + cell.n_vertices, [&](const unsigned int vertex) {
               return surface.kind(vertex) == PressureDofType::unknown;
             }))
@@ -59,8 +60,7 @@ namespace scree
   template <int dim>
   bool ParticleShifting<dim>::find_potential(const Mixture<dim> &mixture, const double time_step, Budget<dim> &balance)
   {
-    const FreeSurface<dim> &surface = pressure.free_surface();
-    const double part               = -std::expm1(-rate * time_step);
+    const double part = -std::expm1(-rate * time_step);
     find_inside(mixture);
     source.clear();
     bool is_any = false;
@@ -82,9 +82,8 @@ namespace scree
 
 
   template <int dim>
-  void ParticleShifting<dim>::find_shifts(const Mixture<dim> &mixture,
-                                          const WetNodes<dim> &nodes,
-                                          const double time_step)
+  void
+  ParticleShifting<dim>::find_shifts(const Mixture<dim> &mixture, const WetNodes<dim> &nodes, const double time_step)
   {
     shifts->clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
@@ -122,35 +121,36 @@ namespace scree
     if (!find_potential(mixture, time_step, balance))
       return;
     find_shifts(mixture, nodes, time_step);
-    with_nodes_1d(grid, [&](auto n) { move<n>(water, balance); });
+    move(water, balance);
   }
 
 
   template <int dim>
-  template <int n>
   void ParticleShifting<dim>::move(WaterPhase<dim> &water, Budget<dim> &balance) const
   {
-    constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
-    const auto &layout            = water.layout;
-    for (const auto &cell : water.points().cells())
-      {
-        NodeRow of_nodes[dim][n_rows]{};
-        for (unsigned int r = 0; r < n_rows; ++r)
-          for (unsigned int i = 0; i < n; ++i)
+    with_nodes_1d(grid, [&](auto n) {
+      constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+      const auto &layout            = water.layout;
+      for (const auto &cell : water.points().cells())
+        {
+          NodeRow of_nodes[dim][n_rows]{};
+          for (unsigned int r = 0; r < n_rows; ++r)
+            for (unsigned int i = 0; i < n; ++i)
+              for (unsigned int c = 0; c < dim; ++c)
+                of_nodes[c][r][i] = (*shifts)[grid.nodes(cell.cell)[r * n + i]][c];
+          for_each_record(cell, [&](const auto &point) {
+            const PointShape<dim, n> shape(point.reference_location, grid.open_knots(cell.cell));
+            Tensor<1, dim> shift;
             for (unsigned int c = 0; c < dim; ++c)
-              of_nodes[c][r][i] = (*shifts)[grid.nodes(cell.cell)[r * n + i]][c];
-        for_each_record(cell, [&](const auto &point) {
-          const PointShape<dim, n> shape(point.reference_location, grid.open_knots(cell.cell));
-          Tensor<1, dim> shift;
-          for (unsigned int c = 0; c < dim; ++c)
-            shift[c] = sum(contract(shape.rows.value, of_nodes[c]) * shape.value_x);
-          point.location += shift;
-          balance.correction_work -= point.properties[layout.mass] * (gravity * shift);
-          // The pressure stays where it is; the point reads it at its new place.
-          for (unsigned int c = 0; c < dim; ++c)
-            point.properties[layout.pressure] += point.properties[layout.pressure_gradient + c] * shift[c];
-        });
-      }
+              shift[c] = sum(contract(shape.rows.value, of_nodes[c]) * shape.value_x);
+            point.location += shift;
+            balance.correction_work -= point.properties[layout.mass] * (gravity * shift);
+            // The pressure stays where it is; the point reads it at its new place.
+            for (unsigned int c = 0; c < dim; ++c)
+              point.properties[layout.pressure] += point.properties[layout.pressure_gradient + c] * shift[c];
+          });
+        }
+    });
   }
 
   template class ParticleShifting<2>;

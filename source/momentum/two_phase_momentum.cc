@@ -114,12 +114,13 @@ namespace scree
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::add_pressure_forces(PorePressure<dim> &pressure, const double time_step)
+  void TwoPhaseMomentum<dim>::add_pressure_forces(const FlowField<dim> &impulses,
+                                                  const PressureOperators<dim> &operators,
+                                                  const double time_step)
   {
-    const FlowField<dim> &impulses = pressure.impulses(time_step);
     nodes.for_occupied([&](const unsigned int node) {
       SoilAndWater<dim> forces = forces_of_flow<dim>(impulses[node], nodes.porosity(node), false);
-      const double least       = closures::least_inertia * water_density * pressure.filled_volume(node);
+      const double least       = closures::least_inertia * water_density * operators.filled_volume(node);
       const auto share         = [&](Tensor<1, dim> &force, const double mass) {
         const double pressed = mass > 0. ? std::max(least / mass, 1.) : 1.;
         force *= mass > 0. ? 1. / (pressed * time_step) : 0.;
@@ -277,42 +278,33 @@ namespace scree
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::correct(PorePressure<dim> &pressure, const double time_step, Budget<dim> &balance)
+  void TwoPhaseMomentum<dim>::correct(const FlowField<dim> &of_flow, Budget<dim> &balance)
   {
-    {
-      const TimedPart part(timer, TimerSection::nodes);
-      const FlowField<dim> &of_flow = pressure.impulses_of_change(time_step);
-      nodes.for_occupied([&](const unsigned int node) {
-        const SoilAndWater<dim> impulses =
-            forces_of_flow<dim>(of_flow[node], nodes.porosity(node), nodes.has_soil(node));
-        const DragBlock<dim> pair      = pressed_block_at(node);
-        const SoilAndWater<dim> before = nodes.velocities_before(node), predicted = nodes.velocities(node);
-        SoilAndWater<dim> change = pair.solve(impulses);
-        if (pair.is_held())
-          correct_at_walls(node, pair, impulses, change, balance);
-        balance.pressure_impulse += impulses.soil + impulses.water -
-                                    (pair.soil_mass - nodes.soil[node][Field<dim>::mass]) * change.soil -
-                                    (pair.water_mass - nodes.water[node][Field<dim>::mass]) * change.water;
-        pair.follow(change);
-        nodes.add_to_velocities(node, change);
-        const Tensor<1, dim> slip = predicted.water - predicted.soil + change.water - change.soil;
-        // The work of an impulse, as at walls.
-        const double drag = pair.drag - nodes.pores[node][Pores::coupling];
-        balance.drag_dissipation += 0.5 * drag * slip * (before.water - before.soil + slip);
-      });
-      nodes.update_velocity_ghosts();
-    }
-    if (pressure.prescribes_values())
-      count_pressure_work(pressure, time_step, balance);
+    const TimedPart part(timer, TimerSection::nodes);
+    nodes.for_occupied([&](const unsigned int node) {
+      const SoilAndWater<dim> impulses = forces_of_flow<dim>(of_flow[node], nodes.porosity(node), nodes.has_soil(node));
+      const DragBlock<dim> pair        = pressed_block_at(node);
+      const SoilAndWater<dim> before = nodes.velocities_before(node), predicted = nodes.velocities(node);
+      SoilAndWater<dim> change = pair.solve(impulses);
+      if (pair.is_held())
+        correct_at_walls(node, pair, impulses, change, balance);
+      balance.pressure_impulse += impulses.soil + impulses.water -
+                                  (pair.soil_mass - nodes.soil[node][Field<dim>::mass]) * change.soil -
+                                  (pair.water_mass - nodes.water[node][Field<dim>::mass]) * change.water;
+      pair.follow(change);
+      nodes.add_to_velocities(node, change);
+      const Tensor<1, dim> slip = predicted.water - predicted.soil + change.water - change.soil;
+      // The work of an impulse, as at walls.
+      const double drag = pair.drag - nodes.pores[node][Pores::coupling];
+      balance.drag_dissipation += 0.5 * drag * slip * (before.water - before.soil + slip);
+    });
+    nodes.update_velocity_ghosts();
   }
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::count_pressure_work(PorePressure<dim> &pressure,
-                                                  const double time_step,
-                                                  Budget<dim> &balance) const
+  void TwoPhaseMomentum<dim>::count_pressure_work(const FlowField<dim> &of_flow, Budget<dim> &balance) const
   {
-    const FlowField<dim> &of_flow = pressure.prescribed_impulses(time_step);
     nodes.for_occupied([&](const unsigned int node) {
       SoilAndWater<dim> impulses = forces_of_flow<dim>(of_flow[node], nodes.porosity(node), nodes.has_soil(node));
       impulses.soil /= nodes.pores[node][Pores::pressed_soil];

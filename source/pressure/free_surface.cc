@@ -125,16 +125,18 @@ namespace scree
               node[wet_cells] += open;
             }
         }
-    for (const EnteringWater<dim> &entering : mixture.entering())
-      for (unsigned int v = 0; v < entering.at_vertex.size(); ++v)
-        filling[vertices.nodes(entering.cell)[v]][filled] += entering.at_vertex[v];
     filling.add_contributions();
     filling.update_ghosts();
+    touched = filling.active_nodes();
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      for (unsigned int v = 0; cell.water_volume > 0 && v < cell.n_vertices; ++v)
+        if (const unsigned int vertex = vertices.nodes(cell.cell)[v]; vertex >= vertices.n_owned())
+          touched.push_back(vertex);
   }
 
 
   template <int dim>
-  void FreeSurface<dim>::sum_soil(const Mixture<dim> &mixture)
+  void FreeSurface<dim>::find_soil_depths(Mixture<dim> &mixture)
   {
     soil.clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
@@ -147,20 +149,12 @@ namespace scree
         }
     soil.add_contributions();
     soil.update_ghosts();
-  }
-
-
-  template <int dim>
-  void FreeSurface<dim>::find_soil_depths(Mixture<dim> &mixture)
-  {
-    sum_soil(mixture);
     for (MixtureCell<dim> &cell : mixture.cells())
-      if (cell.grain_volume > 0.)
-        for (unsigned int v = 0; v < cell.n_vertices; ++v)
-          {
-            const unsigned int vertex = vertices.nodes(cell.cell)[v];
-            cell.soil_depths[v]       = distance_from_fill(soil[vertex][0] / volume_under(vertex));
-          }
+      for (unsigned int v = 0; cell.grain_volume > 0. && v < cell.n_vertices; ++v)
+        {
+          const unsigned int vertex = vertices.nodes(cell.cell)[v];
+          cell.soil_depths[v]       = distance_from_fill(soil[vertex][0] / volume_under(vertex));
+        }
   }
 
 
@@ -207,13 +201,12 @@ namespace scree
         }
     neighbours.add_contributions();
     neighbours.update_ghosts();
-    for_all_wet_vertices(mixture, [&](const unsigned int vertex) {
+    for (const unsigned int vertex : touched)
       if (kinds[vertex] == kind || (kinds[vertex] == PressureDofType::dry && neighbours[vertex][number] > 0.))
         {
           kinds[vertex] = kind;
           group.vertices.push_back(vertex);
         }
-    });
     return group;
   }
 
@@ -227,8 +220,8 @@ namespace scree
         pressure.local_element(vertex) = 0.;
       }
     sum_filling(mixture);
-    for_all_wet_vertices(mixture,
-                         [&](const unsigned int vertex) { pressure.local_element(vertex) = classify(vertex); });
+    for (const unsigned int vertex : touched)
+      pressure.local_element(vertex) = classify(vertex);
     unknown_vertices.clear();
     for (const unsigned int vertex : filling.active_nodes())
       if (kinds[vertex] == PressureDofType::unknown)

@@ -132,7 +132,7 @@ namespace scree
     motions.assign(motions.size(), NodeRow{});
     const auto relax = [&](const unsigned int k) {
       const GroundRow<dim> &row = all[k];
-      if (row.diagonal == 0. || row.held == HeldMotion::none)
+      if (row.diagonal == 0. || !(row.holds_across || row.holds_along))
         return; // Nothing of the phase is there, or it has lifted off.
       NodeRow flow{};
       for (unsigned int j = k * n_nodes; j < (k + 1) * n_nodes; ++j)

@@ -141,86 +141,74 @@ namespace scree
 
 
   template <int dim>
-  template <int n>
-  void PressureOperators<dim>::add_divergence_of_cells(const FlowField<dim> &of_nodes, VertexVector &result) const
-  {
-    constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
-    const NodeRow *of_moments     = moments.data();
-    for (const auto &cell : part.cells())
-      {
-        const unsigned int *nodes = grid.nodes(cell.cell);
-        Rows<dim, n> mixture, discharge;
-        read<dim, n>(of_nodes, nodes, 0, mixture);
-        read<dim, n>(of_nodes, nodes, dim, discharge);
-        NodeRow drift[dim] = {};
-        for (unsigned int r = 0; r < n_rows; ++r, ++of_moments)
-          for (unsigned int c = 0; c < dim; ++c)
-            drift[c] += *of_moments * discharge[c][r];
-        for (unsigned int v = 0; v < FilledPart<dim>::n_vertices; ++v)
-          {
-            NodeRow divergence{};
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                const NodeRow *integrals = part.divergence(cell, c, v);
-                for (unsigned int r = 0; r < n_rows; ++r)
-                  divergence -= integrals[r] * mixture[c][r];
-                divergence += cell.hat_slopes[v][c] * drift[c];
-              }
-            result.local_element(vertices.nodes(cell.cell)[v]) += sum(divergence);
-          }
-      }
-  }
-
-
-  template <int dim>
-  template <int n>
-  void PressureOperators<dim>::add_force_of_cells(const VertexVector &pressure, FlowField<dim> &forces) const
-  {
-    constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
-    const NodeRow *of_moments     = moments.data();
-    for (const auto &cell : part.cells())
-      {
-        const unsigned int *nodes = grid.nodes(cell.cell);
-        Rows<dim, n> of_mixture{};
-        Tensor<1, dim> slope; // at the centre of the part
-        for (unsigned int v = 0; v < FilledPart<dim>::n_vertices; ++v)
-          {
-            const double p = pressure.local_element(vertices.nodes(cell.cell)[v]);
-            if (p == 0.)
-              continue; // dry, or held in a step of the solver
-            slope += p * cell.hat_slopes[v];
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                const NodeRow *integrals = part.divergence(cell, c, v);
-                for (unsigned int r = 0; r < n_rows; ++r)
-                  of_mixture[c][r] += p * integrals[r];
-              }
-          }
-        for (unsigned int r = 0; r < n_rows; ++r, ++of_moments)
-          for (unsigned int i = 0; i < n; ++i)
-            {
-              double *force = forces[nodes[r * n + i]];
-              for (unsigned int c = 0; c < dim; ++c)
-                {
-                  force[c] += of_mixture[c][r][i];
-                  force[dim + c] -= (*of_moments)[i] * slope[c];
-                }
-            }
-      }
-  }
-
-
-  template <int dim>
   void PressureOperators<dim>::add_divergence(const FlowField<dim> &of_nodes, VertexVector &result) const
   {
-    with_nodes_1d(grid, [&](auto n) { add_divergence_of_cells<n>(of_nodes, result); });
+    with_nodes_1d(grid, [&](auto n) {
+      constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+      const NodeRow *of_moments     = moments.data();
+      for (const auto &cell : part.cells())
+        {
+          const unsigned int *nodes = grid.nodes(cell.cell);
+          Rows<dim, n> mixture, discharge;
+          read<dim, n>(of_nodes, nodes, 0, mixture);
+          read<dim, n>(of_nodes, nodes, dim, discharge);
+          NodeRow drift[dim] = {};
+          for (unsigned int r = 0; r < n_rows; ++r, ++of_moments)
+            for (unsigned int c = 0; c < dim; ++c)
+              drift[c] += *of_moments * discharge[c][r];
+          for (unsigned int v = 0; v < FilledPart<dim>::n_vertices; ++v)
+            {
+              NodeRow divergence{};
+              for (unsigned int c = 0; c < dim; ++c)
+                {
+                  const NodeRow *integrals = part.divergence(cell, c, v);
+                  for (unsigned int r = 0; r < n_rows; ++r)
+                    divergence -= integrals[r] * mixture[c][r];
+                  divergence += cell.hat_slopes[v][c] * drift[c];
+                }
+              result.local_element(vertices.nodes(cell.cell)[v]) += sum(divergence);
+            }
+        }
+    });
   }
 
 
   template <int dim>
   void PressureOperators<dim>::add_force(const VertexVector &pressure, FlowField<dim> &forces) const
   {
-    with_nodes_1d(grid, [&](auto n) { add_force_of_cells<n>(pressure, forces); });
+    with_nodes_1d(grid, [&](auto n) {
+      constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+      const NodeRow *of_moments     = moments.data();
+      for (const auto &cell : part.cells())
+        {
+          const unsigned int *nodes = grid.nodes(cell.cell);
+          Rows<dim, n> of_mixture{};
+          Tensor<1, dim> slope; // at the centre of the part
+          for (unsigned int v = 0; v < FilledPart<dim>::n_vertices; ++v)
+            {
+              const double p = pressure.local_element(vertices.nodes(cell.cell)[v]);
+              if (p == 0.)
+                continue; // dry, or held in a step of the solver
+              slope += p * cell.hat_slopes[v];
+              for (unsigned int c = 0; c < dim; ++c)
+                {
+                  const NodeRow *integrals = part.divergence(cell, c, v);
+                  for (unsigned int r = 0; r < n_rows; ++r)
+                    of_mixture[c][r] += p * integrals[r];
+                }
+            }
+          for (unsigned int r = 0; r < n_rows; ++r, ++of_moments)
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                double *force = forces[nodes[r * n + i]];
+                for (unsigned int c = 0; c < dim; ++c)
+                  {
+                    force[c] += of_mixture[c][r][i];
+                    force[dim + c] -= (*of_moments)[i] * slope[c];
+                  }
+              }
+        }
+    });
   }
 
 

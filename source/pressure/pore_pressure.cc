@@ -11,11 +11,10 @@ namespace scree
 
   template <int dim>
   PorePressure<dim>::PorePressure(const BackgroundGrid<dim> &grid,
-                                  const BoundaryConditions<dim> &walls,
+                                  FreeSurface<dim> &surface,
+                                  PressureOperators<dim> &operators,
                                   const PressureParameters &parameters,
                                   const WaterParameters &water,
-                                  const CutCells<dim> *cut_cells,
-                                  const GroundGaps<dim> &ground_gaps,
                                   TimerOutput &timer)
       : grid(grid)
       , relative_tolerance(parameters.relative_tolerance)
@@ -24,8 +23,8 @@ namespace scree
       , maximum_iterations(parameters.maximum_iterations)
       , timer(timer)
       , vertices(grid.vertices())
-      , surface(grid, vertices, walls, cut_cells, water.air_entry_pressure)
-      , operators(grid, vertices, surface, cut_cells, ground_gaps)
+      , surface(surface)
+      , operators(operators)
       , preconditioner(grid, vertices, surface)
       , program(
             grid.communicator(),
@@ -39,8 +38,6 @@ namespace scree
   template <int dim>
   void PorePressure<dim>::reinit()
   {
-    surface.reinit();
-    operators.reinit();
     preconditioner.reinit();
     own_state = PreconditionerState();
     reinit_vectors();
@@ -192,7 +189,7 @@ namespace scree
       {
         const GroundRow<dim> &row = ground->all[k];
         target.tractions[k] += regularisation * row.diagonal * source.tractions[k];
-        if (row.holds_along())
+        if (row.holds_along)
           target.tractions[k] += row.compliance * row.along(source.tractions[k]);
       }
   }
@@ -222,10 +219,8 @@ namespace scree
       {
         GroundRow<dim> &row   = ground->all[k];
         const double pressing = row.traction * row.normal;
-        if (!row.is_unilateral)
-          row.held = row.friction > 0. ? HeldMotion::all : HeldMotion::across;
-        else
-          row.held = pressing > 0. ? HeldMotion::across : HeldMotion::none;
+        row.holds_across      = !row.is_unilateral || pressing > 0.;
+        row.holds_along       = !row.is_unilateral && row.friction > 0.;
         if (row.is_unilateral && (pressing <= 0. || row.friction == 0.))
           row.traction = std::max(pressing, 0.) * row.normal;
         program.source.tractions[k]   = row.flow;
@@ -308,10 +303,10 @@ namespace scree
         Tensor<1, dim> &traction = program.solution.tractions[k];
         if (!row.is_unilateral || row.friction == 0.)
           continue;
-        if (!program.presses(k))
+        row.holds_across = row.holds_along = program.presses(k);
+        if (!row.holds_across)
           {
             traction       = Tensor<1, dim>();
-            row.held       = HeldMotion::none;
             row.compliance = 0.;
             continue;
           }
@@ -323,7 +318,6 @@ namespace scree
         row.compliance = needed > available ? step * std::min(needed / available - 1., most_over_available) : 0.;
         if (along.norm() > available)
           traction -= (1. - available / along.norm()) * along;
-        row.held = HeldMotion::all;
       }
   }
 

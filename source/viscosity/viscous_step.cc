@@ -39,60 +39,52 @@ namespace scree
 
 
   template <int dim>
-  template <int n>
-  void ViscousForce<dim>::add_points(const WaterPhase<dim> &water,
-                                     const NodalField<dim> &motion,
-                                     NodalField<dim> &field) const
-  {
-    for (const auto &cell : water.points().cells())
-      {
-        const OpenKnots open      = grid.open_knots(cell.cell);
-        const unsigned int *nodes = grid.nodes(cell.cell);
-        const CellVelocity<dim, n> velocity(nodes, motion, grid.cell_size());
-        CellSums<dim, n> sums(grid.cell_size());
-        for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
-          RecordPointers<const double> places;
-          for (unsigned int l = 0; l < batch_size; ++l)
-            places[l] = &cell.reference_location_of(indices[l])[0];
-          const auto at_points = velocity.template at<TransferMethod::tpic, true>(BatchShape<dim, n>(places, open));
-          for (unsigned int l = 0; l < n_used; ++l)
-            {
-              const PointShape<dim, n> shape(cell.reference_location_of(indices[l]), open);
-              Tensor<2, dim> gradient;
-              for (unsigned int c = 0; c < dim; ++c)
-                for (unsigned int d = 0; d < dim; ++d)
-                  gradient[c][d] = at_points.gradient[c * dim + d][l];
-              sums.add_force(shape,
-                             viscosity * cell.properties_of(indices[l])[water.layout.volume],
-                             twice_deviatoric_rate(gradient));
-            }
-        });
-        field.activate_cell(cell.cell);
-        sums.scatter(nodes, field);
-      }
-  }
-
-
-  template <int dim>
-  template <int n>
-  double ViscousForce<dim>::bound(const WaterPhase<dim> &water) const
-  {
-    double largest = 0;
-    for (const auto &cell : water.points().cells())
-      for_each_point(cell, [&, open = grid.open_knots(cell.cell)](const auto &point) {
-        if (const double product = viscosity * point.properties[water.layout.volume]; product > 0.)
-          largest = std::max(largest,
-                             product / point.properties[water.layout.mass] *
-                                 stiffness<dim, n>(point.reference_location, open));
-      });
-    return 2. * largest / (grid.cell_size() * grid.cell_size());
-  }
-
-
-  template <int dim>
   void ViscousForce<dim>::add(const WaterPhase<dim> &water, const NodalField<dim> &motion, NodalField<dim> &field) const
   {
-    with_nodes_1d(grid, [&](auto n) { add_points<n>(water, motion, field); });
+    with_nodes_1d(grid, [&](auto n) {
+      for (const auto &cell : water.points().cells())
+        {
+          const OpenKnots open      = grid.open_knots(cell.cell);
+          const unsigned int *nodes = grid.nodes(cell.cell);
+          const CellVelocity<dim, n> velocity(nodes, motion, grid.cell_size());
+          CellSums<dim, n> sums(grid.cell_size());
+          for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
+            RecordPointers<const double> places;
+            for (unsigned int l = 0; l < batch_size; ++l)
+              places[l] = &cell.reference_location_of(indices[l])[0];
+            const auto at_points = velocity.template at<TransferMethod::tpic, true>(BatchShape<dim, n>(places, open));
+            for (unsigned int l = 0; l < n_used; ++l)
+              {
+                const PointShape<dim, n> shape(cell.reference_location_of(indices[l]), open);
+                Tensor<2, dim> gradient;
+                for (unsigned int c = 0; c < dim; ++c)
+                  for (unsigned int d = 0; d < dim; ++d)
+                    gradient[c][d] = at_points.gradient[c * dim + d][l];
+                sums.add_force(shape,
+                               viscosity * cell.properties_of(indices[l])[water.layout.volume],
+                               twice_deviatoric_rate(gradient));
+              }
+          });
+          field.activate_cell(cell.cell);
+          sums.scatter(nodes, field);
+        }
+    });
+  }
+
+  template <int dim>
+  double ViscousForce<dim>::largest_rate(const WaterPhase<dim> &water) const
+  {
+    return with_nodes_1d(grid, [&](auto n) {
+      double largest = 0;
+      for (const auto &cell : water.points().cells())
+        for_each_point(cell, [&, open = grid.open_knots(cell.cell)](const auto &point) {
+          if (const double product = viscosity * point.properties[water.layout.volume]; product > 0.)
+            largest = std::max(largest,
+                               product / point.properties[water.layout.mass] *
+                                   stiffness<dim, n>(point.reference_location, open));
+        });
+      return 2. * largest / (grid.cell_size() * grid.cell_size());
+    });
   }
 
 

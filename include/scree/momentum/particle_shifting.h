@@ -19,6 +19,7 @@ namespace scree
     /// @param rate at which the surplus of a vertex decays, 1/s; 0: points are not moved
     ParticleShifting(const BackgroundGrid<dim> &grid,
                      const Constraints<dim> &constraints,
+                     const FreeSurface<dim> &surface,
                      PorePressure<dim> &pressure,
                      const dealii::Tensor<1, dim> &gravity,
                      const double rate);
@@ -45,11 +46,11 @@ namespace scree
     void find_shifts(const Mixture<dim> &mixture, const WetNodes<dim> &nodes, const double time_step);
 
     /// Moves the points with the nodes.
-    template <int n>
     void move(WaterPhase<dim> &water, Budget<dim> &balance) const;
 
     const BackgroundGrid<dim> &grid;
     const Constraints<dim> &constraints;
+    const FreeSurface<dim> &surface;
     PorePressure<dim> &pressure;
     const dealii::Tensor<1, dim> gravity;
     const double rate; // 1/s

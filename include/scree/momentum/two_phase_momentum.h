@@ -3,7 +3,8 @@
 #define scree_momentum_two_phase_momentum_h
 
 #include <scree/boundary/body_forces.h>
-#include <scree/pressure/pore_pressure.h>
+#include <scree/pressure/operators.h>
+#include <scree/step/step_report.h>
 #include <scree/momentum/wall_friction.h>
 #include <scree/boundary/wall_gaps.h>
 
@@ -36,8 +37,11 @@ namespace scree
 
     /// Adds the force of the old pressure to the sums of soil and water, and finds what they count as where the
     /// pressure moves them (Pores): at least a part of the water that would fill what B integrates over
-    /// (closures::least_inertia). Collective.
-    void add_pressure_forces(PorePressure<dim> &pressure, const double time_step);
+    /// (closures::least_inertia).
+    /// @param impulses of the pressure on u and q over the step, N s
+    void add_pressure_forces(const FlowField<dim> &impulses,
+                             const PressureOperators<dim> &operators,
+                             const double time_step);
 
     /// A v* = m v + dt f, with the old pressure in f. The nodes hold velocities and their change afterwards, the pores
     /// drag times step. Collective.
@@ -53,14 +57,16 @@ namespace scree
     /// Gives an owned node further impulses, N s, after predict(): drag and walls see them, too.
     void push(const unsigned int node, const SoilAndWater<dim> &impulses, Budget<dim> &balance);
 
-    /// v = v** - dt A^-1 (B^T dp + N^T t) with the solution of `pressure`. Collective.
-    void correct(PorePressure<dim> &pressure, const double time_step, Budget<dim> &balance);
+    /// v = v** - dt A^-1 (B^T dp + N^T t). Collective.
+    /// @param of_flow impulses of the change of the pressure and of the ground on u and q, N s
+    void correct(const FlowField<dim> &of_flow, Budget<dim> &balance);
+
+    /// Adds the work of suction and of the pressure at drained walls, after the corrector: as any impulse, they act at
+    /// the mean of the velocities before and after.
+    /// @param of_flow their impulses on u and q, N s
+    void count_pressure_work(const FlowField<dim> &of_flow, Budget<dim> &balance) const;
 
   private:
-    /// Adds the work of suction and of the pressure at drained walls, after the corrector: as any impulse, they act at
-    /// the mean of the velocities before and after. Collective.
-    void count_pressure_work(PorePressure<dim> &pressure, const double time_step, Budget<dim> &balance) const;
-
     /// Of what holds soil and water at the node, m/s.
     SoilAndWater<dim> velocity_of_walls(const unsigned int node) const;
 

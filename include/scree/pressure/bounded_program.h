@@ -38,7 +38,7 @@ namespace scree
 
     /// Sets source and solution to 0.
     /// @param n_pressures owned unknowns of this rank
-    /// @param of_ground its rows, whose HeldMotion the program changes; null: none on any rank
+    /// @param of_ground its rows; the program changes what they hold across the ground; null: none on any rank
     void begin(const std::size_t n_pressures, std::vector<GroundRow<dim>> *of_ground);
 
     /// Holds what of the solution is at its bounds or beyond, and puts it there.

@@ -236,24 +236,8 @@ namespace scree
 
     void sum_filling(const Mixture<dim> &mixture);
 
-    /// Sums what the soil of a mixture fills under the vertices' linear functions. Collective.
-    void sum_soil(const Mixture<dim> &mixture);
     /// Finds suction_behind(). Collective.
     void find_suction();
-
-    /// Calls `act(vertex)` for the owned vertices that any rank's water may touch, and for the ghosts that this rank's
-    /// water touches: for these more than once.
-    template <typename Function>
-    void for_all_wet_vertices(const Mixture<dim> &mixture, const Function &act) const
-    {
-      for (const unsigned int vertex : filling.active_nodes())
-        act(vertex);
-      for (const MixtureCell<dim> &cell : mixture.cells())
-        if (cell.water_volume > 0)
-          for (unsigned int v = 0; v < cell.n_vertices; ++v)
-            if (const unsigned int vertex = vertices.nodes(cell.cell)[v]; vertex >= vertices.n_owned())
-              act(vertex);
-    }
 
     /// What a vertex beside the surface takes of the sum of its neighbours.
     double share(const unsigned int vertex) const
@@ -273,6 +257,8 @@ namespace scree
     std::vector<double> distances;              // cells; positive in the water
     std::vector<Open> open;                     // by vertex, ghosts too
     std::vector<unsigned int> unknown_vertices; // see unknowns()
+    // Owned vertices that any rank's water may touch, and ghosts that this rank's water touches: these more than once.
+    std::vector<unsigned int> touched;
     std::array<Followers, 2> followers;
     VertexVector scratch; // 0 between calls
     VertexVector suction; // see suction_behind()

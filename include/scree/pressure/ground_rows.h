@@ -35,15 +35,6 @@ namespace scree
     }
   };
 
-  /// What of the motion at a row the ground constrains.
-  enum class HeldMotion : unsigned int
-  {
-    none,   ///< nothing, as it lifts off
-    across, ///< that into it
-    along,  ///< that along it, as far as the compliance of its friction lets it: the one into it has just lifted off
-    all     ///< both
-  };
-
   /// Soil or water at a facet of rigid ground: its mean velocity there must not go into the ground, and by Coulomb's
   /// law the ground resists its sliding.
   template <int dim>
@@ -57,29 +48,17 @@ namespace scree
     dealii::Tensor<1, dim> normal;   ///< unit, out of the open
     dealii::Tensor<1, dim> flow;     ///< m^dim/s: area times the velocity beside what is admissible, without tractions
     dealii::Tensor<1, dim> traction; ///< on the ground, Pa; holds the initial guess before the solve
-    HeldMotion held   = HeldMotion::none; ///< in the current solve
-    double compliance = 0.;               ///< flow along the ground over the traction along it, m^dim/(Pa s); 0: sticks
+    bool holds_across = false;       ///< in the current solve: the motion into the ground
+    bool holds_along  = false;       ///< that along it, as far as the compliance of its friction lets it
+    double compliance = 0.;          ///< flow along the ground over the traction along it, m^dim/(Pa s); 0: sticks
     double diagonal   = 0.; ///< of dt N A^-1 N^T, as if no walls held the nodes, m^dim/(Pa s); see set_mobilities()
-
-    /// Whether the ground holds the motion into it.
-    bool holds_across() const
-    {
-      return held == HeldMotion::across || held == HeldMotion::all;
-    }
-
-    /// Whether it holds the motion along it.
-    bool holds_along() const
-    {
-      return held == HeldMotion::along || held == HeldMotion::all;
-    }
 
     /// The part of a vector that the ground holds.
     dealii::Tensor<1, dim> held_part(const dealii::Tensor<1, dim> &vector) const
     {
-      return held == HeldMotion::none     ? dealii::Tensor<1, dim>()
-             : held == HeldMotion::across ? (vector * normal) * normal
-             : held == HeldMotion::along  ? along(vector)
-                                          : vector;
+      if (holds_across)
+        return holds_along ? vector : (vector * normal) * normal;
+      return holds_along ? along(vector) : dealii::Tensor<1, dim>();
     }
 
     /// The traction, Pa, that alone would take a flow from what is held, m^dim/s.

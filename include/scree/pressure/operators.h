@@ -136,11 +136,6 @@ namespace scree
     /// A pass of these: cells take their shares, and pass their means on to the nodes.
     void share_surplus();
 
-    template <int n>
-    void add_divergence_of_cells(const FlowField<dim> &flow, VertexVector &sums) const;
-    template <int n>
-    void add_force_of_cells(const VertexVector &pressure, FlowField<dim> &forces) const;
-
     /// Adds to the force on the discharge that of a pressure which acts on this alone, N: - int phi_i grad t.
     void add_suction(const VertexVector &pressure, FlowField<dim> &forces) const;
 

@@ -22,52 +22,24 @@ namespace scree
   public:
     using AtVertices = std::array<double, (1 << dim)>; ///< a number a vertex of a cell, in deal.II's order
 
-    /// @param cut_cells what rigid ground leaves of the cells; null: all
+    /// Keeps references to grid, surface and operators.
     PorePressure(const BackgroundGrid<dim> &grid,
-                 const BoundaryConditions<dim> &walls,
+                 FreeSurface<dim> &surface,
+                 PressureOperators<dim> &operators,
                  const PressureParameters &parameters,
                  const WaterParameters &water,
-                 const CutCells<dim> *cut_cells,
-                 const GroundGaps<dim> &ground_gaps,
                  dealii::TimerOutput &timer);
 
     /// Fits it to the grid's current vertices. Collective.
     void reinit();
 
-    /// Fits it to ground that has moved, on the mesh as it was. Collective.
-    void follow_ground()
-    {
-      surface.follow_ground();
-    }
-
-    /// See FreeSurface.
-    void find_soil_depths(Mixture<dim> &mixture)
-    {
-      surface.find_soil_depths(mixture);
-    }
-
     /// Finds the water's surface and the pressure at the start of a step. Collective.
     void locate(const Mixture<dim> &mixture);
-
-    /// Finds B of a step, once the nodes' sums over ranks are known, see PressureOperators. Collective.
-    void find_pair(const Mixture<dim> &mixture,
-                   const typename PressureOperators<dim>::AtNode &volume,
-                   const typename FilledPart<dim>::HoldsNode &holds,
-                   const double time_step)
-    {
-      operators.find_pair(mixture, volume, holds, time_step);
-    }
 
     /// Impulses of the pressure in a step, N s, at the owned nodes: of u, then of q beside it. Collective.
     const FlowField<dim> &impulses(const double time_step)
     {
       return operators.impulses(pressure, time_step, surface.suction_behind());
-    }
-
-    /// What the water of find_pair() fills under the function of an owned node, m^3.
-    double filled_volume(const unsigned int node) const
-    {
-      return operators.filled_volume(node);
     }
 
     /// Solves for the change of the pressure over a step, and for the tractions of the ground, from the predicted
@@ -96,13 +68,8 @@ namespace scree
     /// Impulses of its change over the step and of the ground, as impulses().
     const FlowField<dim> &impulses_of_change(const double time_step)
     {
+      const TimedPart timed(timer, TimerSection::nodes);
       return operators.impulses(change, time_step, nullptr, &tractions);
-    }
-
-    /// Whether there is suction, or a drained wall holds a pressure other than 0.
-    bool prescribes_values() const
-    {
-      return surface.prescribes_values();
     }
 
     /// Impulses of suction and of the pressure at drained walls, which do work, as impulses(). Collective.
@@ -129,18 +96,6 @@ namespace scree
 
     /// Pressure at the vertices of a cell with points, Pa, in deal.II's order.
     AtVertices pressure_of(const unsigned int cell) const;
-
-    /// The free surface, as locate() has found it.
-    const FreeSurface<dim> &free_surface() const
-    {
-      return surface;
-    }
-
-    /// The vertices of the cells.
-    const NodeNumbering<dim> &numbering() const
-    {
-      return vertices;
-    }
 
   private:
     using Vector = PressuresAndTractions<dim>;
@@ -203,8 +158,8 @@ namespace scree
     dealii::TimerOutput &timer;
 
     const NodeNumbering<dim> &vertices;
-    FreeSurface<dim> surface;
-    PressureOperators<dim> operators;
+    FreeSurface<dim> &surface;
+    PressureOperators<dim> &operators;
     PressurePreconditioner<dim> preconditioner;
     PreconditionerState own_state;                                         // of this rank
     static constexpr unsigned int iterations_worth_a_preconditioner = 200; // what making it costs, measured

@@ -61,18 +61,8 @@ namespace scree
                      const double time_step) const;
 
   private:
-    template <int n>
-    void add_soil(const SoilBody<dim> &soil, Mixture<dim> &mixture) const;
-
     template <int n, bool is_affine>
     void add_water(const WaterPhase<dim> &water, Mixture<dim> &mixture, WetNodes<dim> &nodes) const;
-
-    template <int n, TransferMethod method>
-    double move_water(WaterPhase<dim> &water,
-                      const WetNodes<dim> &nodes,
-                      const Mixture<dim> &mixture,
-                      const PressureOfCell<dim> &pressure,
-                      const double time_step) const;
 
     /// Velocity, pressure and, if the points are the water's own, place of a cell's points.
     ///
@@ -127,15 +117,6 @@ namespace scree
     const NodeRow number_x = shape.value_x * number;
     for (unsigned int r = 0; r < n_rows; ++r)
       sums[r] += number_x * shape.rows.value[r];
-  }
-
-  /// Adds rows of nodes to a component of their values.
-  template <int n, typename Values, unsigned long n_rows>
-  void scatter(const NodeRow (&sums)[n_rows], const unsigned int *nodes, const unsigned int component, Values &values)
-  {
-    for (unsigned int r = 0; r < n_rows; ++r)
-      for (unsigned int i = 0; i < n; ++i)
-        values[nodes[r * n + i]][component] += sums[r][i];
   }
 
   /// Adds volume and pressure of a point of water to the corners of its cell.

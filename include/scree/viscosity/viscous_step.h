@@ -31,18 +31,9 @@ namespace scree
     /// A bound on the rates, 1/s, at which viscosity slows any motion of nodes with lumped masses, for this rank's
     /// points: the largest eigenvalue of M^-1 K is at most max 2 mu V/m sum |grad phi_i|^2/phi_i, by the inequality of
     /// Cauchy and Schwarz for |sum grad phi_i v_i|^2.
-    double largest_rate(const WaterPhase<dim> &water) const
-    {
-      return with_nodes_1d(grid, [&](auto n) { return bound<n>(water); });
-    }
+    double largest_rate(const WaterPhase<dim> &water) const;
 
   private:
-    template <int n>
-    void add_points(const WaterPhase<dim> &water, const NodalField<dim> &motion, NodalField<dim> &field) const;
-
-    template <int n>
-    double bound(const WaterPhase<dim> &water) const;
-
     const BackgroundGrid<dim> &grid;
     const double viscosity; // Pa s
   };

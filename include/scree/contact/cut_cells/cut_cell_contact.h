@@ -16,7 +16,7 @@ namespace scree
   ///
   /// The ground in a cell is a segment for each of its parts; a field's velocity there is its mean over the segment,
   /// beside the segment's own. Soil gets a row each (GroundRows), and so does water in cells without an unknown
-  /// pressure; elsewhere the pressure stops the water. PressureSolver finds the tractions together with the pressure,
+  /// pressure; elsewhere the pressure stops the water. PorePressure finds the tractions together with the pressure,
   /// TractionSolver those on soil without water. Soil that is not fixed may lift off, and rubs by Coulomb's law; water
   /// may leave where it has no pressure. It slips along the ground, but where that holds free water.
   template <int dim>
