@@ -199,10 +199,11 @@ namespace scree
   template class NodeValues<2, 4>; // pressure forces on soil and water
   template class NodeValues<3, 4>;
   template class NodeValues<2, 5>; // NodalField in 2D
-  template class NodeValues<2, 6>;
   template class NodeValues<3, 6>;
   template class NodeValues<3, 7>;
-  template class NodeValues<2, 8>;  // normals to choose from, between bodies
+  template class NodeValues<2, 8>; // normals to choose from, between bodies
+  template class NodeValues<2, 9>; // Pores
+  template class NodeValues<3, 10>;
   template class NodeValues<2, 16>; // linear functions about vertices, see VolumeProjection
   template class NodeValues<3, 11>;
   template class NodeValues<3, 20>;

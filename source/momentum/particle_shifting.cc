@@ -12,11 +12,13 @@ namespace scree
   template <int dim>
   ParticleShifting<dim>::ParticleShifting(const BackgroundGrid<dim> &grid,
                                           const Constraints<dim> &constraints,
+                                          const FreeSurface<dim> &surface,
                                           PorePressure<dim> &pressure,
                                           const Tensor<1, dim> &gravity,
                                           const double rate)
       : grid(grid)
       , constraints(constraints)
+      , surface(surface)
       , pressure(pressure)
       , gravity(gravity)
       , rate(rate)
@@ -32,8 +34,7 @@ namespace scree
   {
     if (rate == 0.)
       return;
-    pressure.reinit(volume_inside);
-    pressure.reinit(source);
+    volume_inside.reinit(grid.vertices().partitioner());
     shifts->reinit();
   }
 
@@ -41,12 +42,11 @@ namespace scree
   template <int dim>
   void ParticleShifting<dim>::find_inside(const Mixture<dim> &mixture)
   {
-    const FreeSurface<dim> &surface = pressure.free_surface();
     volume_inside.zero_out_ghost_values();
     volume_inside = 0.;
     for (const MixtureCell<dim> &cell : mixture.cells())
       {
-        const unsigned int *vertices = pressure.vertices_of(cell.cell);
+        const unsigned int *vertices = grid.vertices().nodes(cell.cell);
         if (std::all_of(vertices, vertices + cell.n_vertices, [&](const unsigned int vertex) {
               return surface.kind(vertex) == PressureDofType::unknown;
             }))
@@ -60,20 +60,21 @@ namespace scree
   template <int dim>
   bool ParticleShifting<dim>::find_potential(const Mixture<dim> &mixture, const double time_step, Budget<dim> &balance)
   {
-    const FreeSurface<dim> &surface = pressure.free_surface();
-    const double part               = -std::expm1(-rate * time_step);
+    const double part = -std::expm1(-rate * time_step);
     find_inside(mixture);
-    source = 0.;
-    for (const unsigned int vertex : surface.wet_vertices())
-      if (surface.kind(vertex) == PressureDofType::unknown && surface.is_free_water(vertex))
-        {
-          const double surplus = surface.fill(vertex) - 1., volume = surface.volume_under(vertex);
-          const bool inside = volume_inside.local_element(vertex) > (1. - 1e-9) * volume;
-          // At the free surface a deficit is expected: only an excess is corrected.
-          if (surplus > closures::least_surplus || (inside && surplus < -closures::least_surplus))
-            source.local_element(vertex) = part * surplus * volume / time_step;
-        }
-    if (source.linfty_norm() == 0.)
+    source.clear();
+    bool is_any = false;
+    for (const unsigned int vertex : surface.unknowns())
+      {
+        const double surplus = surface.fill(vertex) - 1., volume = surface.volume_under(vertex);
+        const bool inside = volume_inside.local_element(vertex) > (1. - 1e-9) * volume;
+        // At the free surface a deficit is expected: only an excess is corrected.
+        const bool counts = surplus > closures::least_surplus || (inside && surplus < -closures::least_surplus);
+        const bool moves  = counts && surface.is_free_water(vertex);
+        source.push_back(moves ? part * surplus * volume / time_step : 0.);
+        is_any = is_any || moves;
+      }
+    if (!Utilities::MPI::logical_or(is_any, grid.communicator()))
       return false;
     pressure.solve_potential(source, balance);
     return true;
@@ -81,10 +82,8 @@ namespace scree
 
 
   template <int dim>
-  void ParticleShifting<dim>::find_shifts(const Mixture<dim> &mixture,
-                                          const NodalField<dim> &water_field,
-                                          const PoreField<dim> &pores,
-                                          const double time_step)
+  void
+  ParticleShifting<dim>::find_shifts(const Mixture<dim> &mixture, const WetNodes<dim> &nodes, const double time_step)
   {
     shifts->clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
@@ -93,8 +92,8 @@ namespace scree
     const double most             = 0.1 * grid.cell_size();
     for (const unsigned int node : shifts->active_nodes())
       {
-        const double mass = water_field[node][NodalField<dim>::mass];
-        const bool moves  = mass > 0. && !(pores[node][PoreField<dim>::grain_fraction] > 0.);
+        const double mass = nodes.water[node][NodalField<dim>::mass];
+        const bool moves  = mass > 0. && !(nodes.pores[node][Pores::grain_fraction] > 0.);
         double *values    = (*shifts)[node];
         Tensor<1, dim> shift;
         for (unsigned int c = 0; c < dim && moves; ++c)
@@ -111,8 +110,7 @@ namespace scree
   template <int dim>
   void ParticleShifting<dim>::apply(WaterPhase<dim> &water,
                                     const Mixture<dim> &mixture,
-                                    const NodalField<dim> &water_field,
-                                    const PoreField<dim> &pores,
+                                    const WetNodes<dim> &nodes,
                                     const double time_step,
                                     Budget<dim> &balance)
   {
@@ -122,36 +120,37 @@ namespace scree
       return; // Water that rides on the soil's points moves with them.
     if (!find_potential(mixture, time_step, balance))
       return;
-    find_shifts(mixture, water_field, pores, time_step);
-    with_nodes_1d(grid, [&](auto n) { move<n>(water, balance); });
+    find_shifts(mixture, nodes, time_step);
+    move(water, balance);
   }
 
 
   template <int dim>
-  template <int n>
   void ParticleShifting<dim>::move(WaterPhase<dim> &water, Budget<dim> &balance) const
   {
-    constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
-    const auto &layout            = water.layout;
-    for (const auto &cell : water.points().cells())
-      {
-        NodeRow of_nodes[dim][n_rows]{};
-        for (unsigned int r = 0; r < n_rows; ++r)
-          for (unsigned int i = 0; i < n; ++i)
+    with_nodes_1d(grid, [&](auto n) {
+      constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
+      const auto &layout            = water.layout;
+      for (const auto &cell : water.points().cells())
+        {
+          NodeRow of_nodes[dim][n_rows]{};
+          for (unsigned int r = 0; r < n_rows; ++r)
+            for (unsigned int i = 0; i < n; ++i)
+              for (unsigned int c = 0; c < dim; ++c)
+                of_nodes[c][r][i] = (*shifts)[grid.nodes(cell.cell)[r * n + i]][c];
+          for_each_record(cell, [&](const auto &point) {
+            const PointShape<dim, n> shape(point.reference_location, grid.open_knots(cell.cell));
+            Tensor<1, dim> shift;
             for (unsigned int c = 0; c < dim; ++c)
-              of_nodes[c][r][i] = (*shifts)[grid.nodes(cell.cell)[r * n + i]][c];
-        for_each_record(cell, [&](const auto &point) {
-          const PointShape<dim, n> shape(point.reference_location, grid.open_knots(cell.cell));
-          Tensor<1, dim> shift;
-          for (unsigned int c = 0; c < dim; ++c)
-            shift[c] = sum(contract(shape.rows.value, of_nodes[c]) * shape.value_x);
-          point.location += shift;
-          balance.correction_work -= point.properties[layout.mass] * (gravity * shift);
-          // The pressure stays where it is; the point reads it at its new place.
-          for (unsigned int c = 0; c < dim; ++c)
-            point.properties[layout.pressure] += point.properties[layout.pressure_gradient + c] * shift[c];
-        });
-      }
+              shift[c] = sum(contract(shape.rows.value, of_nodes[c]) * shape.value_x);
+            point.location += shift;
+            balance.correction_work -= point.properties[layout.mass] * (gravity * shift);
+            // The pressure stays where it is; the point reads it at its new place.
+            for (unsigned int c = 0; c < dim; ++c)
+              point.properties[layout.pressure] += point.properties[layout.pressure_gradient + c] * shift[c];
+          });
+        }
+    });
   }
 
   template class ParticleShifting<2>;

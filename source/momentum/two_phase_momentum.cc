@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/momentum/two_phase_momentum.h>
-#include <scree/tensor/vector.h>
 
 #include <algorithm>
 
@@ -13,50 +12,6 @@ namespace scree
     template <int dim>
     using Field = NodalField<dim>;
 
-    template <int dim>
-    void add_to(double *components, const Tensor<1, dim> &vector)
-    {
-      for (unsigned int c = 0; c < dim; ++c)
-        components[c] += vector[c];
-    }
-
-    /// Adds a change of velocity to velocity and velocity change of a node.
-    template <int dim>
-    void add_to_velocities(const SoilAndWater<dim> &change, double *of_soil, double *of_water)
-    {
-      for (const unsigned int first : { Field<dim>::velocity, Field<dim>::velocity_change })
-        {
-          add_to(of_soil + first, change.soil);
-          add_to(of_water + first, change.water);
-        }
-    }
-
-    /// Another rank may see a node on which no point acts.
-    template <int dim>
-    bool is_empty(const MixtureNodes<dim> &nodes, const unsigned int node)
-    {
-      return nodes.soil[node][Field<dim>::mass] <= 0. && nodes.water[node][Field<dim>::mass] <= 0.;
-    }
-
-    template <int dim>
-    Tensor<1, dim> velocity_of_sums(const double *values)
-    {
-      const double mass = values[Field<dim>::mass];
-      return mass > 0. ? vector_of<dim>(values + Field<dim>::momentum) / mass : Tensor<1, dim>();
-    }
-
-    template <int dim>
-    Tensor<1, dim> velocity_at_start(const double *values)
-    {
-      return vector_of<dim>(values + Field<dim>::velocity) - vector_of<dim>(values + Field<dim>::velocity_change);
-    }
-
-    template <int dim>
-    double work_of(const SoilAndWater<dim> &impulses, const SoilAndWater<dim> &velocities)
-    {
-      return impulses.soil * velocities.soil + impulses.water * velocities.water;
-    }
-
     /// Kinetic energy, J, of what walls stop, from the velocities before beside theirs. Forces do work with the
     /// velocity of the step's end, and so none on what is stopped.
     template <int dim>
@@ -65,52 +20,34 @@ namespace scree
       return 0.5 * (pair.soil_mass * pair.held_soil.held_part(before.soil).norm_square() +
                     pair.water_mass * pair.held_water.held_part(before.water).norm_square());
     }
-
-    template <int dim>
-    void write_motion(double *values, const Tensor<1, dim> &before, const Tensor<1, dim> &after)
-    {
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          values[Field<dim>::velocity + c]        = after[c];
-          values[Field<dim>::velocity_change + c] = after[c] - before[c];
-        }
-    }
   } // namespace
 
 
   template <int dim>
-  TwoPhaseMomentum<dim>::TwoPhaseMomentum(const BackgroundGrid<dim> &grid,
+  TwoPhaseMomentum<dim>::TwoPhaseMomentum(WetNodes<dim> &nodes,
                                           const Constraints<dim> &constraints,
                                           const WallGaps<dim> &wall_gaps,
                                           const BodyForces<dim> &forcing,
                                           const double water_density,
                                           TimerOutput &timer)
-      : constraints(constraints)
+      : nodes(nodes)
+      , constraints(constraints)
       , wall_gaps(wall_gaps)
       , forcing(forcing)
-      , grid(grid)
       , water_density(forcing.mass_scaling() * water_density)
       , timer(timer)
       , friction(constraints)
   {
-    friction.reinit(grid.n_owned_nodes());
   }
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::reinit()
-  {
-    friction.reinit(grid.n_owned_nodes());
-  }
-
-
-  template <int dim>
-  DragBlock<dim> TwoPhaseMomentum<dim>::drag_block_at(const MixtureNodes<dim> &nodes, const unsigned int node) const
+  DragBlock<dim> TwoPhaseMomentum<dim>::drag_block_at(const unsigned int node) const
   {
     DragBlock<dim> pair;
     pair.soil_mass  = nodes.soil[node][Field<dim>::mass];
     pair.water_mass = nodes.water[node][Field<dim>::mass];
-    pair.drag       = nodes.pores[node][PoreField<dim>::drag];
+    pair.drag       = nodes.pores[node][Pores::drag];
     if (const NodeConstraints<dim> *walls = constraints.at(node))
       {
         pair.held_soil  = friction.held(node);
@@ -121,11 +58,11 @@ namespace scree
 
 
   template <int dim>
-  DragBlock<dim> TwoPhaseMomentum<dim>::pressed_block_at(const MixtureNodes<dim> &nodes, const unsigned int node) const
+  DragBlock<dim> TwoPhaseMomentum<dim>::pressed_block_at(const unsigned int node) const
   {
-    DragBlock<dim> pair = drag_block_at(nodes, node);
-    pair.soil_mass *= nodes.pores[node][PoreField<dim>::pressed_soil];
-    pair.water_mass *= nodes.pores[node][PoreField<dim>::pressed_water];
+    DragBlock<dim> pair = drag_block_at(node);
+    pair.soil_mass *= nodes.pores[node][Pores::pressed_soil];
+    pair.water_mass *= nodes.pores[node][Pores::pressed_water];
     return pair;
   }
 
@@ -150,108 +87,80 @@ namespace scree
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::assign_rigid_mass(const MixtureNodes<dim> &nodes, const unsigned int node) const
+  void TwoPhaseMomentum<dim>::find_flux_inertia(const double time_step)
   {
-    if (is_rigid(node) && nodes.soil[node][Field<dim>::mass] <= 0.)
-      nodes.soil[node][Field<dim>::mass] = nodes.water[node][Field<dim>::mass];
+    nodes.for_occupied([&](const unsigned int node) {
+      double *pore = nodes.pores[node], *soil = nodes.soil[node], *water = nodes.water[node];
+      const double mass = water[Field<dim>::mass];
+      if (is_rigid(node) && soil[Field<dim>::mass] <= 0.)
+        soil[Field<dim>::mass] = mass; // A is defined; the velocity is prescribed.
+      const bool has_both         = mass > 0. && soil[Field<dim>::mass] > 0.;
+      const double inverse        = has_both ? 1. + water_density * pore[Pores::local_solid_volume] / mass : 1.;
+      const double inertia        = mass + water_density * pore[Pores::flux_inertia];
+      const double square         = inverse * inverse;
+      pore[Pores::grain_fraction] = mass > 0. ? 1. - 1. / inverse : 1.;
+      pore[Pores::coupling]       = has_both ? std::max(inertia / square - mass, 0.) : 0.;
+      pore[Pores::drag]           = pore[Pores::coupling] + (has_both ? time_step * pore[Pores::drag] / square : 0.);
+      pore[Pores::inertial_drag] *= has_both ? time_step / (square * inverse) : 0.;
+      for (unsigned int c = 0; has_both && c < dim; ++c)
+        {
+          double &momentum = water[Field<dim>::momentum + c];
+          const double own = (momentum + pore[Pores::excess_momentum + c]) / inverse;
+          soil[Field<dim>::momentum + c] += momentum - own;
+          momentum = own;
+        }
+    });
   }
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::find_flux_inertia(const MixtureNodes<dim> &nodes,
-                                                const NodalField<dim> &excess,
-                                                const double time_step)
+  void TwoPhaseMomentum<dim>::add_pressure_forces(const FlowField<dim> &impulses,
+                                                  const PressureOperators<dim> &operators,
+                                                  const double time_step)
   {
-    for (const unsigned int node : nodes.pores.active_nodes())
-      {
-        if (is_empty(nodes, node))
-          continue;
-        assign_rigid_mass(nodes, node);
-        double *pore = nodes.pores[node], *soil = nodes.soil[node], *water = nodes.water[node];
-        const double mass    = water[Field<dim>::mass];
-        const bool has_both  = mass > 0. && soil[Field<dim>::mass] > 0.;
-        const double inverse = has_both ? 1. + water_density * pore[PoreField<dim>::local_solid_volume] / mass : 1.;
-        const double inertia = mass + water_density * pore[PoreField<dim>::flux_inertia];
-        const double square  = inverse * inverse;
-        pore[PoreField<dim>::grain_fraction] = mass > 0. ? 1. - 1. / inverse : 1.;
-        pore[PoreField<dim>::coupling]       = has_both ? std::max(inertia / square - mass, 0.) : 0.;
-        pore[PoreField<dim>::drag] =
-            pore[PoreField<dim>::coupling] + (has_both ? time_step * pore[PoreField<dim>::drag] / square : 0.);
-        pore[PoreField<dim>::inertial_drag] *= has_both ? time_step / (square * inverse) : 0.;
-        if (has_both)
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              double &momentum = water[Field<dim>::momentum + c];
-              const double own = (momentum + excess[node][Field<dim>::momentum + c]) / inverse;
-              soil[Field<dim>::momentum + c] += momentum - own;
-              momentum = own;
-            }
-      }
+    nodes.for_occupied([&](const unsigned int node) {
+      SoilAndWater<dim> forces = forces_of_flow<dim>(impulses[node], nodes.porosity(node), false);
+      const double least       = closures::least_inertia * water_density * operators.filled_volume(node);
+      const auto share         = [&](Tensor<1, dim> &force, const double mass) {
+        const double pressed = mass > 0. ? std::max(least / mass, 1.) : 1.;
+        force *= mass > 0. ? 1. / (pressed * time_step) : 0.;
+        return pressed;
+      };
+      nodes.pores[node][Pores::pressed_soil]  = share(forces.soil, nodes.soil[node][Field<dim>::mass]);
+      nodes.pores[node][Pores::pressed_water] = share(forces.water, nodes.water[node][Field<dim>::mass]);
+      nodes.add(node, Field<dim>::force, forces);
+    });
   }
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::find_pressed_nodes(const MixtureNodes<dim> &nodes, PorePressure<dim> &pressure) const
+  SoilAndWater<dim>
+  TwoPhaseMomentum<dim>::velocities_at_start(const unsigned int node, const double kept, Budget<dim> &balance) const
   {
-    PressedNodes<dim> &pressed = pressure.pressed_nodes;
-    pressed.all.clear();
-    pressed.held.clear();
-    pressed.without_grains.clear();
-    const auto look_for_grains = [&](const unsigned int node) {
-      if (nodes.soil[node][Field<dim>::mass] > 0. && nodes.water[node][Field<dim>::mass] > 0. &&
-          nodes.pores[node][PoreField<dim>::grain_fraction] <= 0.)
-        pressed.without_grains.push_back(node);
+    const auto velocity_of = [](const double *values) {
+      const double mass = values[Field<dim>::mass];
+      return mass > 0. ? vector_of<dim>(values + Field<dim>::momentum) / mass : Tensor<1, dim>();
     };
-    for (unsigned int node = grid.n_owned_nodes(); node < grid.numbering().n_local(); ++node)
-      look_for_grains(node);
-    for (const unsigned int node : nodes.pores.active_nodes())
-      {
-        if (is_empty(nodes, node))
-          continue;
-        look_for_grains(node);
-        const DragBlock<dim> pair = pressed_block_at(nodes, node);
-        pressed.all.push_back({ node,
-                                1. - nodes.pores[node][PoreField<dim>::grain_fraction],
-                                drag_mobility(pair.soil_mass, pair.water_mass, pair.drag),
-                                PressedNode<dim>::free });
-        if (!pair.is_held())
-          continue;
-        pressed.all.back().held = pressed.held.size();
-        pressed.held.push_back(pair);
-      }
+    SoilAndWater<dim> result{ velocity_of(nodes.soil[node]), velocity_of(nodes.water[node]) };
+    DragBlock<dim> inertia;
+    inertia.soil_mass  = nodes.soil[node][Field<dim>::mass];
+    inertia.water_mass = nodes.water[node][Field<dim>::mass];
+    inertia.drag       = nodes.pores[node][Pores::coupling];
+    if (inertia.drag <= 0.)
+      return result;
+    const SoilAndWater<dim> momentum{ inertia.soil_mass * result.soil, inertia.water_mass * result.water };
+    if (is_rigid(node))
+      inertia.held_soil.hold_all();
+    result = inertia.solve(momentum);
+    if (is_rigid(node)) // The water's points keep what its nodes do not take of their momentum.
+      balance.wall_impulse += kept * (momentum.soil + momentum.water - inertia.water_mass * result.water);
+    return result;
   }
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::add_pressure_forces(const MixtureNodes<dim> &nodes,
-                                                  PorePressure<dim> &pressure,
-                                                  const double time_step) const
-  {
-    const FlowField<dim> &impulses = pressure.impulses(time_step);
-    for (const unsigned int node : nodes.pores.active_nodes())
-      {
-        if (is_empty(nodes, node))
-          continue;
-        const PressedNode<dim> pressed{ node, 1. - nodes.pores[node][PoreField<dim>::grain_fraction], {}, 0 };
-        const SoilAndWater<dim> of_phases = PressedNodes<dim>::forces(pressed, impulses[node]);
-        const double least                = closures::least_inertia * water_density * pressure.filled_volume(node);
-        const auto add                    = [&](double *values, double &share, const Tensor<1, dim> &impulse) {
-          const double mass = values[Field<dim>::mass];
-          share             = mass > 0. ? std::max(least / mass, 1.) : 1.;
-          if (mass > 0.)
-            add_to(values + Field<dim>::force, 1. / (share * time_step) * impulse);
-        };
-        add(nodes.soil[node], nodes.pores[node][PoreField<dim>::pressed_soil], of_phases.soil);
-        add(nodes.water[node], nodes.pores[node][PoreField<dim>::pressed_water], of_phases.water);
-      }
-  }
-
-
-  template <int dim>
-  SoilAndWater<dim> TwoPhaseMomentum<dim>::impulses_at(const MixtureNodes<dim> &nodes,
-                                                       const unsigned int node,
-                                                       const double time_step,
-                                                       Budget<dim> &balance) const
+  SoilAndWater<dim>
+  TwoPhaseMomentum<dim>::impulses_at(const unsigned int node, const double time_step, Budget<dim> &balance) const
   {
     const Tensor<1, dim> push = forcing.acceleration(node);
     const auto impulse_of     = [&](const double *values) {
@@ -266,8 +175,7 @@ namespace scree
       {
         const double decay = forcing.decay(time_step);
         balance.wall_impulse -= (1. - decay) * (impulses.soil + impulses.water);
-        impulses.soil *= decay;
-        impulses.water *= decay;
+        impulses *= decay;
       }
     return impulses;
   }
@@ -286,17 +194,16 @@ namespace scree
 
 
   template <int dim>
-  SoilAndWater<dim> TwoPhaseMomentum<dim>::solve_node(const MixtureNodes<dim> &nodes,
-                                                      const unsigned int node,
-                                                      SoilAndWater<dim> &impulses,
+  SoilAndWater<dim> TwoPhaseMomentum<dim>::solve_node(const unsigned int node,
+                                                      SoilAndWater<dim> impulses,
                                                       const SoilAndWater<dim> &before,
                                                       Budget<dim> &balance)
   {
-    const double inertial = nodes.pores[node][PoreField<dim>::inertial_drag];
-    double &drag          = nodes.pores[node][PoreField<dim>::drag];
+    const double inertial = nodes.pores[node][Pores::inertial_drag];
+    double &drag          = nodes.pores[node][Pores::drag];
     const double slow     = drag;
     drag += inertial * (before.water - before.soil).norm(); // Contacts are found with the drag of the start.
-    DragBlock<dim> pair                   = drag_block_at(nodes, node);
+    DragBlock<dim> pair                   = drag_block_at(node);
     const SoilAndWater<dim> wall_velocity = velocity_of_walls(node);
     // Velocities beside those of the walls: these hold what is left.
     const Tensor<1, dim> drag_of_walls = pair.drag * (wall_velocity.water - wall_velocity.soil);
@@ -305,9 +212,9 @@ namespace scree
     SoilAndWater<dim> after = pair.solve(impulses);
     if (pair.soil_mass > 0. && friction.find_contact(node, after.soil))
       {
-        impulses.soil += friction.resist(node, drag_block_at(nodes, node), impulses);
+        impulses.soil += friction.resist(node, drag_block_at(node), impulses);
         count_walls(node, { friction.resistance(node), Tensor<1, dim>() }, balance);
-        pair  = drag_block_at(nodes, node);
+        pair  = drag_block_at(node);
         after = pair.solve(impulses);
       }
     if (inertial > 0.)
@@ -320,52 +227,30 @@ namespace scree
       {
         const SoilAndWater<dim> walls = pair.reactions(impulses, after);
         count_walls(node, walls, balance);
-        balance.wall_dissipation -= work_of(walls, wall_velocity);
+        balance.wall_dissipation -= walls * wall_velocity;
       }
-    after.soil += wall_velocity.soil;
-    after.water += wall_velocity.water;
+    after += wall_velocity;
     pair.follow(after);
     return after;
   }
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::predict(const MixtureNodes<dim> &nodes,
-                                      const double time_step,
-                                      const double kept,
-                                      Budget<dim> &balance)
+  void TwoPhaseMomentum<dim>::predict(const double time_step, const double kept, Budget<dim> &balance)
   {
     const TimedPart part(timer, TimerSection::nodes);
     friction.clear();
-    for (const unsigned int node : nodes.pores.active_nodes())
-      {
-        if (is_empty(nodes, node))
-          continue;
-        SoilAndWater<dim> before{ velocity_of_sums<dim>(nodes.soil[node]), velocity_of_sums<dim>(nodes.water[node]) };
-        if (const double coupling = nodes.pores[node][PoreField<dim>::coupling]; coupling > 0.)
-          {
-            DragBlock<dim> inertia;
-            inertia.soil_mass  = nodes.soil[node][Field<dim>::mass];
-            inertia.water_mass = nodes.water[node][Field<dim>::mass];
-            inertia.drag       = coupling;
-            const SoilAndWater<dim> momentum{ inertia.soil_mass * before.soil, inertia.water_mass * before.water };
-            const bool soil_rests = is_rigid(node);
-            if (soil_rests)
-              inertia.held_soil.hold_all();
-            before = inertia.solve(momentum);
-            if (soil_rests) // The water's points keep what its nodes do not take of their momentum.
-              balance.wall_impulse += kept * (momentum.soil + momentum.water - inertia.water_mass * before.water);
-          }
-        SoilAndWater<dim> impulses    = impulses_at(nodes, node, time_step, balance);
-        const SoilAndWater<dim> after = solve_node(nodes, node, impulses, before, balance);
-        // A phase that is absent has no motion of its own to change.
-        if (nodes.soil[node][Field<dim>::mass] <= 0.)
-          before.soil = after.soil;
-        if (nodes.water[node][Field<dim>::mass] <= 0.)
-          before.water = after.water;
-        write_motion(nodes.soil[node], before.soil, after.soil);
-        write_motion(nodes.water[node], before.water, after.water);
-      }
+    nodes.for_occupied([&](const unsigned int node) {
+      SoilAndWater<dim> before         = velocities_at_start(node, kept, balance);
+      const SoilAndWater<dim> impulses = impulses_at(node, time_step, balance);
+      const SoilAndWater<dim> after    = solve_node(node, impulses, before, balance);
+      // A phase that is absent has no motion of its own to change.
+      if (!nodes.has_soil(node))
+        before.soil = after.soil;
+      if (!nodes.has_water(node))
+        before.water = after.water;
+      nodes.set_velocities(node, before, after);
+    });
     nodes.update_velocity_ghosts();
     nodes.pores.update_ghosts();
   }
@@ -375,110 +260,73 @@ namespace scree
   void TwoPhaseMomentum<dim>::correct_at_walls(const unsigned int node,
                                                const DragBlock<dim> &pair,
                                                const SoilAndWater<dim> &impulses,
-                                               const SoilAndWater<dim> &before,
-                                               const Tensor<1, dim> &soil_predicted,
                                                SoilAndWater<dim> &change,
                                                Budget<dim> &balance) const
   {
-    const SoilAndWater<dim> walls = pair.reactions(impulses, change);
+    const SoilAndWater<dim> walls = pair.reactions(impulses, change), before = nodes.velocities_before(node);
     count_walls(node, walls, balance);
     const SoilAndWater<dim> wall_velocity = velocity_of_walls(node);
-    balance.wall_dissipation +=
-        stopped_energy(pair, { before.soil - wall_velocity.soil, before.water - wall_velocity.water }) -
-        work_of(walls, wall_velocity);
-    const Tensor<1, dim> soil_after = soil_predicted + change.soil;
+    balance.wall_dissipation += stopped_energy(pair, before - wall_velocity) - walls * wall_velocity;
+    const Tensor<1, dim> soil_after = nodes.velocities(node).soil + change.soil;
     // Beside the speed at which the soil closes a gap: friction acts along the wall.
     const Tensor<1, dim> more = friction.adjust(node, walls.soil, pair.soil_mass, soil_after - wall_velocity.soil);
     const SoilAndWater<dim> further = pair.solve({ more, Tensor<1, dim>() });
-    change.soil += further.soil;
-    change.water += further.water;
+    change += further;
     count_walls(node, { more, Tensor<1, dim>() }, balance);
     balance.wall_dissipation -= 0.5 * (friction.resistance(node) + more) * (before.soil + soil_after + further.soil);
   }
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::correct(const MixtureNodes<dim> &nodes,
-                                      PorePressure<dim> &pressure,
-                                      const double time_step,
-                                      Budget<dim> &balance)
+  void TwoPhaseMomentum<dim>::correct(const FlowField<dim> &of_flow, Budget<dim> &balance)
   {
     const TimedPart part(timer, TimerSection::nodes);
-    const FlowField<dim> &of_flow = pressure.impulses_of_change(time_step);
-    for (const PressedNode<dim> &pressed : pressure.pressed_nodes.all)
-      {
-        const unsigned int node = pressed.node;
-        double *of_soil = nodes.soil[node], *of_water = nodes.water[node];
-        const SoilAndWater<dim> impulses = PressedNodes<dim>::forces(pressed, of_flow[node]);
-        const DragBlock<dim> pair        = pressed_block_at(nodes, node);
-        SoilAndWater<dim> change         = pair.solve(impulses);
-        const SoilAndWater<dim> before{ velocity_at_start<dim>(of_soil), velocity_at_start<dim>(of_water) };
-        const Tensor<1, dim> soil_predicted = vector_of<dim>(of_soil + Field<dim>::velocity);
-        const Tensor<1, dim> slip_predicted = vector_of<dim>(of_water + Field<dim>::velocity) - soil_predicted;
-        if (pair.is_held())
-          correct_at_walls(node, pair, impulses, before, soil_predicted, change, balance);
-        balance.pressure_impulse += impulses.soil + impulses.water -
-                                    (pair.soil_mass - of_soil[Field<dim>::mass]) * change.soil -
-                                    (pair.water_mass - of_water[Field<dim>::mass]) * change.water;
-        pair.follow(change);
-        add_to_velocities(change, of_soil, of_water);
-        const Tensor<1, dim> slip = slip_predicted + change.water - change.soil;
-        // The work of an impulse, as at walls.
-        const double drag = pair.drag - nodes.pores[node][PoreField<dim>::coupling];
-        balance.drag_dissipation += 0.5 * drag * slip * (before.water - before.soil + slip);
-      }
+    nodes.for_occupied([&](const unsigned int node) {
+      const SoilAndWater<dim> impulses = forces_of_flow<dim>(of_flow[node], nodes.porosity(node), nodes.has_soil(node));
+      const DragBlock<dim> pair        = pressed_block_at(node);
+      const SoilAndWater<dim> before = nodes.velocities_before(node), predicted = nodes.velocities(node);
+      SoilAndWater<dim> change = pair.solve(impulses);
+      if (pair.is_held())
+        correct_at_walls(node, pair, impulses, change, balance);
+      balance.pressure_impulse += impulses.soil + impulses.water -
+                                  (pair.soil_mass - nodes.soil[node][Field<dim>::mass]) * change.soil -
+                                  (pair.water_mass - nodes.water[node][Field<dim>::mass]) * change.water;
+      pair.follow(change);
+      nodes.add_to_velocities(node, change);
+      const Tensor<1, dim> slip = predicted.water - predicted.soil + change.water - change.soil;
+      // The work of an impulse, as at walls.
+      const double drag = pair.drag - nodes.pores[node][Pores::coupling];
+      balance.drag_dissipation += 0.5 * drag * slip * (before.water - before.soil + slip);
+    });
     nodes.update_velocity_ghosts();
   }
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::count_pressure_work(const MixtureNodes<dim> &nodes,
-                                                  PorePressure<dim> &pressure,
-                                                  const double time_step,
-                                                  Budget<dim> &balance) const
+  void TwoPhaseMomentum<dim>::count_pressure_work(const FlowField<dim> &of_flow, Budget<dim> &balance) const
   {
-    if (!pressure.prescribes_values())
-      return;
-    const FlowField<dim> &of_flow = pressure.prescribed_impulses(time_step);
-    for (const PressedNode<dim> &pressed : pressure.pressed_nodes.all)
-      {
-        const unsigned int node    = pressed.node;
-        SoilAndWater<dim> impulses = PressedNodes<dim>::forces(pressed, of_flow[node]);
-        impulses.soil /= nodes.pores[node][PoreField<dim>::pressed_soil];
-        impulses.water /= nodes.pores[node][PoreField<dim>::pressed_water];
-        const double *of_soil = nodes.soil[node], *of_water = nodes.water[node];
-        const SoilAndWater<dim> sums{ velocity_at_start<dim>(of_soil) + vector_of<dim>(of_soil + Field<dim>::velocity),
-                                      velocity_at_start<dim>(of_water) +
-                                          vector_of<dim>(of_water + Field<dim>::velocity) };
-        balance.pressure_work += 0.5 * work_of(impulses, sums);
-      }
+    nodes.for_occupied([&](const unsigned int node) {
+      SoilAndWater<dim> impulses = forces_of_flow<dim>(of_flow[node], nodes.porosity(node), nodes.has_soil(node));
+      impulses.soil /= nodes.pores[node][Pores::pressed_soil];
+      impulses.water /= nodes.pores[node][Pores::pressed_water];
+      balance.pressure_work += 0.5 * (impulses * (nodes.velocities_before(node) + nodes.velocities(node)));
+    });
   }
 
 
   template <int dim>
-  void TwoPhaseMomentum<dim>::push(const MixtureNodes<dim> &nodes,
-                                   const unsigned int node,
-                                   const SoilAndWater<dim> &impulses,
-                                   Budget<dim> &balance) const
+  void TwoPhaseMomentum<dim>::push(const unsigned int node, const SoilAndWater<dim> &impulses, Budget<dim> &balance)
   {
-    const DragBlock<dim> pair      = drag_block_at(nodes, node);
-    const SoilAndWater<dim> change = pair.solve(impulses);
+    const DragBlock<dim> pair = drag_block_at(node);
+    SoilAndWater<dim> change  = pair.solve(impulses);
     if (pair.is_held())
       {
         const SoilAndWater<dim> walls = pair.reactions(impulses, change);
         count_walls(node, walls, balance);
-        balance.wall_dissipation -= work_of(walls, velocity_of_walls(node));
+        balance.wall_dissipation -= walls * velocity_of_walls(node);
       }
-    add(nodes, node, change);
-  }
-
-
-  template <int dim>
-  void TwoPhaseMomentum<dim>::add(const MixtureNodes<dim> &nodes, const unsigned int node, SoilAndWater<dim> change)
-  {
-    double *of_soil = nodes.soil[node], *of_water = nodes.water[node];
-    follow(of_soil[Field<dim>::mass], of_water[Field<dim>::mass], change);
-    add_to_velocities(change, of_soil, of_water);
+    pair.follow(change);
+    nodes.add_to_velocities(node, change);
   }
 
   template class TwoPhaseMomentum<2>;

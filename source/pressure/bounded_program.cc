@@ -62,7 +62,7 @@ namespace scree
       {
         const GroundRow<dim> &row = (*rows)[k];
         const double flow         = remaining.tractions[k] * row.normal;
-        if (!row.holds_across() && flow > 0. && row.diagonal > 0.)
+        if (!row.holds_across && flow > 0. && row.diagonal > 0.)
           {
             result.tractions[k] = flow / row.diagonal * row.normal;
             square += weight_of_rows * flow * flow;
@@ -79,7 +79,7 @@ namespace scree
       is_held[i] = is_held[i] && along.pressures[i] == 0.;
     for (unsigned int k = 0; k < along.tractions.size(); ++k)
       if (GroundRow<dim> &row = (*rows)[k]; along.tractions[k].norm_square() > 0.)
-        row.held = row.holds_along() ? HeldMotion::all : HeldMotion::across;
+        row.holds_across = true;
   }
 
 
@@ -96,8 +96,8 @@ namespace scree
   {
     const GroundRow<dim> &row = (*rows)[k];
     const double change       = direction.tractions[k] * row.normal;
-    return row.is_unilateral && row.holds_across() && change < 0. ? -(solution.tractions[k] * row.normal) / change
-                                                                  : no_limit;
+    return row.is_unilateral && row.holds_across && change < 0. ? -(solution.tractions[k] * row.normal) / change
+                                                                : no_limit;
   }
 
 
@@ -137,7 +137,7 @@ namespace scree
   void BoundedProgram<dim>::lift_off(const unsigned int k)
   {
     const GroundRow<dim> &row = (*rows)[k];
-    solution.tractions[k]     = row.holds_along() ? row.along(solution.tractions[k]) : Tensor<1, dim>();
+    solution.tractions[k]     = row.holds_along ? row.along(solution.tractions[k]) : Tensor<1, dim>();
   }
 
 
@@ -161,7 +161,7 @@ namespace scree
         is_held[i] = true;
     for (unsigned int k = 0; k < solution.tractions.size(); ++k)
       if (GroundRow<dim> &row = (*rows)[k]; row.is_unilateral && !presses(k))
-        row.held = row.holds_along() ? HeldMotion::along : HeldMotion::none;
+        row.holds_across = false;
   }
 
 

@@ -52,61 +52,56 @@ namespace scree
 
 
   template <int dim>
-  template <int n>
-  void FilledPart<dim>::integrate(const CubicWeights<dim> &part, const OpenKnots open, NodeRow *integrals) const
-  {
-    constexpr unsigned int n_1d = CubicWeights<dim>::n_1d, rows_of_cell = RowFactors<dim, n>::n_rows,
-                           n_row_hats = n_vertices / 2;
-    const Point<dim> origin;
-    const auto &points = CubicWeights<dim>::points();
-    const double area  = Utilities::fixed_power<dim - 1>(grid.cell_size());
-    // First over the points of the other axes: a lane a point of the first one, of values and of derivatives.
-    NodeRow sums[dim][n_row_hats][rows_of_cell]{};
-    for (unsigned int s = 0; s < CubicWeights<dim>::n_points / n_1d; ++s)
-      {
-        Point<dim> x = origin;
-        for (unsigned int a = 1, rest = s; a < dim; ++a, rest /= n_1d)
-          x[a] = points[rest % n_1d];
-        const RowFactors<dim, n> rows(CellBasis<dim, n>(x, open));
-        const NodeRow weights = load_row(&part.weights[s * n_1d]);
-        for (unsigned int v = 0; v < n_row_hats; ++v)
-          {
-            const NodeRow hat = weights * GeometryInfo<dim>::d_linear_shape_function(x, 2 * v);
-            for (unsigned int r = 0; r < rows_of_cell; ++r)
-              {
-                sums[0][v][r] += hat * rows.value[r];
-                for (unsigned int c = 1; c < dim; ++c)
-                  sums[c][v][r] += hat * rows.derivative[c - 1][r];
-              }
-          }
-      }
-    for (unsigned int q = 0; q < n_1d; ++q)
-      {
-        const CellBasis<dim, n> basis(origin + points[q] * Point<dim>::unit_vector(0), open);
-        const NodeRow value_x = make_row(basis.value[0]), derivative_x = make_row(basis.derivative[0]);
-        for (unsigned int v = 0; v < n_vertices; ++v)
-          {
-            const double hat         = area * (v % 2 ? points[q] : 1. - points[q]);
-            const NodeRow hat_values = hat * value_x, hat_slopes = hat * derivative_x;
-            for (unsigned int r = 0; r < rows_of_cell; ++r)
-              {
-                const double value = sums[0][v / 2][r][q];
-                integrals[v * rows_of_cell + r] += hat_slopes * value;
-                for (unsigned int c = 1; c < dim; ++c)
-                  integrals[(c * n_vertices + v) * rows_of_cell + r] += hat_values * sums[c][v / 2][r][q];
-                integrals[dim * n_vertices * rows_of_cell + r] += hat_values * (grid.cell_size() * value);
-              }
-          }
-      }
-  }
-
-
-  template <int dim>
   unsigned int FilledPart<dim>::add_integrals(const CubicWeights<dim> &part, const OpenKnots open)
   {
     const unsigned int begin = all_integrals.size();
     all_integrals.resize(begin + (dim * n_vertices + 1) * n_rows, NodeRow{});
-    with_nodes_1d(grid, [&](auto n) { integrate<n>(part, open, &all_integrals[begin]); });
+    NodeRow *integrals = &all_integrals[begin];
+    with_nodes_1d(grid, [&](auto n) {
+      constexpr unsigned int n_1d = CubicWeights<dim>::n_1d, rows_of_cell = RowFactors<dim, n>::n_rows,
+                             n_row_hats = n_vertices / 2;
+      const Point<dim> origin;
+      const auto &points = CubicWeights<dim>::points();
+      const double area  = Utilities::fixed_power<dim - 1>(grid.cell_size());
+      // First over the points of the other axes: a lane a point of the first one, of values and of derivatives.
+      NodeRow sums[dim][n_row_hats][rows_of_cell]{};
+      for (unsigned int s = 0; s < CubicWeights<dim>::n_points / n_1d; ++s)
+        {
+          Point<dim> x = origin;
+          for (unsigned int a = 1, rest = s; a < dim; ++a, rest /= n_1d)
+            x[a] = points[rest % n_1d];
+          const RowFactors<dim, n> rows(CellBasis<dim, n>(x, open));
+          const NodeRow weights = load_row(&part.weights[s * n_1d]);
+          for (unsigned int v = 0; v < n_row_hats; ++v)
+            {
+              const NodeRow hat = weights * GeometryInfo<dim>::d_linear_shape_function(x, 2 * v);
+              for (unsigned int r = 0; r < rows_of_cell; ++r)
+                {
+                  sums[0][v][r] += hat * rows.value[r];
+                  for (unsigned int c = 1; c < dim; ++c)
+                    sums[c][v][r] += hat * rows.derivative[c - 1][r];
+                }
+            }
+        }
+      for (unsigned int q = 0; q < n_1d; ++q)
+        {
+          const CellBasis<dim, n> basis(origin + points[q] * Point<dim>::unit_vector(0), open);
+          const NodeRow value_x = make_row(basis.value[0]), derivative_x = make_row(basis.derivative[0]);
+          for (unsigned int v = 0; v < n_vertices; ++v)
+            {
+              const double hat         = area * (v % 2 ? points[q] : 1. - points[q]);
+              const NodeRow hat_values = hat * value_x, hat_slopes = hat * derivative_x;
+              for (unsigned int r = 0; r < rows_of_cell; ++r)
+                {
+                  const double value = sums[0][v / 2][r][q];
+                  integrals[v * rows_of_cell + r] += hat_slopes * value;
+                  for (unsigned int c = 1; c < dim; ++c)
+                    integrals[(c * n_vertices + v) * rows_of_cell + r] += hat_values * sums[c][v / 2][r][q];
+                  integrals[dim * n_vertices * rows_of_cell + r] += hat_values * (grid.cell_size() * value);
+                }
+            }
+        }
+    });
     return begin;
   }
 
@@ -160,43 +155,6 @@ namespace scree
 
 
   template <int dim>
-  template <int n>
-  void FilledPart<dim>::integrate_faces(const std::vector<SimplexFace<dim>> &faces,
-                                        const Tensor<1, dim> &normal,
-                                        const OpenKnots open,
-                                        NodeRow *integrals,
-                                        AtVertices &hats) const
-  {
-    static const QWitherdenVincentSimplex<dim - 1> rule(4);
-    constexpr unsigned int rows_of_cell = RowFactors<dim, n>::n_rows;
-    NodeRow sums[n_vertices][rows_of_cell]{};
-    for (const SimplexFace<dim> &face : faces)
-      {
-        const double area = area_of<dim>(face).norm() * Utilities::fixed_power<dim - 1>(grid.cell_size());
-        std::array<Point<dim>, dim> corners;
-        for (unsigned int i = 0; i < dim; ++i)
-          corners[i] = face[i].place;
-        visit_rule<dim>(rule, corners, [&](const Point<dim> &x, const double part) {
-          const CellBasis<dim, n> basis(x, open);
-          const RowFactors<dim, n> rows(basis);
-          const NodeRow value_x = make_row(basis.value[0]);
-          for (unsigned int v = 0; v < n_vertices; ++v)
-            {
-              const double hat = part * area * GeometryInfo<dim>::d_linear_shape_function(x, v);
-              hats[v] += hat;
-              for (unsigned int r = 0; r < rows_of_cell; ++r)
-                sums[v][r] += value_x * (hat * rows.value[r]);
-            }
-        });
-      }
-    for (unsigned int c = 0; c < dim; ++c)
-      for (unsigned int v = 0; v < n_vertices; ++v)
-        for (unsigned int r = 0; r < rows_of_cell; ++r)
-          integrals[(c * n_vertices + v) * rows_of_cell + r] -= normal[c] * sums[v][r];
-  }
-
-
-  template <int dim>
   typename FilledPart<dim>::AtVertices FilledPart<dim>::add_face(const SimplexFace<dim> &face,
                                                                  const Tensor<1, dim> &normal,
                                                                  const AtVertices &depths,
@@ -208,8 +166,36 @@ namespace scree
     for (SimplexCorner<dim> &corner : faces[0])
       corner.side = interpolate<dim>(depths, corner.place);
     const auto wet = open_part(std::move(faces), linear_crossing<dim>);
-    if (!wet.empty())
-      with_nodes_1d(grid, [&](auto n) { integrate_faces<n>(wet, normal, open, &all_integrals[integrals], hats); });
+    if (wet.empty())
+      return hats;
+    with_nodes_1d(grid, [&](auto n) {
+      static const QWitherdenVincentSimplex<dim - 1> rule(4);
+      constexpr unsigned int rows_of_cell = RowFactors<dim, n>::n_rows;
+      NodeRow sums[n_vertices][rows_of_cell]{};
+      for (const SimplexFace<dim> &part_of_face : wet)
+        {
+          const double area = area_of<dim>(part_of_face).norm() * Utilities::fixed_power<dim - 1>(grid.cell_size());
+          std::array<Point<dim>, dim> corners;
+          for (unsigned int i = 0; i < dim; ++i)
+            corners[i] = part_of_face[i].place;
+          visit_rule<dim>(rule, corners, [&](const Point<dim> &x, const double part) {
+            const CellBasis<dim, n> basis(x, open);
+            const RowFactors<dim, n> rows(basis);
+            const NodeRow value_x = make_row(basis.value[0]);
+            for (unsigned int v = 0; v < n_vertices; ++v)
+              {
+                const double hat = part * area * GeometryInfo<dim>::d_linear_shape_function(x, v);
+                hats[v] += hat;
+                for (unsigned int r = 0; r < rows_of_cell; ++r)
+                  sums[v][r] += value_x * (hat * rows.value[r]);
+              }
+          });
+        }
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int v = 0; v < n_vertices; ++v)
+          for (unsigned int r = 0; r < rows_of_cell; ++r)
+            all_integrals[integrals + (c * n_vertices + v) * rows_of_cell + r] -= normal[c] * sums[v][r];
+    });
     return hats;
   }
 

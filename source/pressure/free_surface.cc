@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/pressure/free_surface.h>
-#include <scree/mixture/mixture.h>
 
 #include <algorithm>
 #include <cmath>
@@ -58,59 +57,43 @@ namespace scree
     const auto &nodes = *vertices.partitioner();
     kinds.assign(nodes.locally_owned_size() + nodes.n_ghost_indices(), PressureDofType::dry);
     distances.assign(kinds.size(), -1.);
+    unknown_vertices.clear();
     scratch.reinit(vertices.partitioner());
     if (has_suction())
       suction.reinit(vertices.partitioner());
+    find_open();
+  }
+
+
+  template <int dim>
+  void FreeSurface<dim>::find_open()
+  {
+    const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
+    VertexVector volume(vertices.partitioner()), cells(vertices.partitioner()); // closed
     if (cut_cells)
-      find_closed();
-  }
-
-
-  template <int dim>
-  void FreeSurface<dim>::find_closed()
-  {
-    VertexVector volume(vertices.partitioner()), cells(vertices.partitioner());
-    for (const CutCell<dim> &cut : cut_cells->cells())
-      for (unsigned int v = 0; v < cut.n_vertices; ++v)
-        {
-          const unsigned int vertex = vertices.nodes(cut.cell)[v];
-          volume.local_element(vertex) +=
-              Utilities::fixed_power<dim>(grid.cell_size()) * (1. / cut.n_vertices - cut.open_hats[v]);
-          cells.local_element(vertex) += 1. - cut.open_fraction;
-        }
-    const auto take = [&](VertexVector &vector, std::vector<double> &values) {
-      vector.compress(VectorOperation::add);
-      vector.update_ghost_values();
-      values.resize(kinds.size());
-      for (unsigned int vertex = 0; vertex < values.size(); ++vertex)
-        values[vertex] = vector.local_element(vertex);
-    };
-    take(volume, closed_volume);
-    take(cells, closed_cells);
-  }
-
-
-  template <int dim>
-  double FreeSurface<dim>::whole_volume(const unsigned int vertex) const
-  {
-    return Utilities::fixed_power<dim>(grid.cell_size()) * cells_in_box(vertex) / (1 << dim);
-  }
-
-
-  template <int dim>
-  double FreeSurface<dim>::volume_under(const unsigned int vertex) const
-  {
-    const double whole = whole_volume(vertex);
-    return closed_volume.empty() ? whole
-                                 : std::max(whole - closed_volume[vertex],
-                                            CutCells<dim>::smallest * Utilities::fixed_power<dim>(grid.cell_size()));
-  }
-
-
-  template <int dim>
-  bool FreeSurface<dim>::has_room(const unsigned int vertex) const
-  {
-    return closed_volume.empty() || closed_volume[vertex] < (1. - closures::least_open_fraction) * whole_volume(vertex);
+      for (const CutCell<dim> &cut : cut_cells->cells())
+        for (unsigned int v = 0; v < cut.n_vertices; ++v)
+          {
+            const unsigned int vertex = vertices.nodes(cut.cell)[v];
+            volume.local_element(vertex) += cell_volume * (1. / cut.n_vertices - cut.open_hats[v]);
+            cells.local_element(vertex) += 1. - cut.open_fraction;
+          }
+    for (VertexVector *vector : { &volume, &cells })
+      {
+        vector->compress(VectorOperation::add);
+        vector->update_ghost_values();
+      }
+    open.resize(kinds.size());
+    for (unsigned int vertex = 0; vertex < open.size(); ++vertex)
+      {
+        unsigned int n_cells = 1 << dim; // in the box
+        for (unsigned int faces = vertices.faces(vertex); faces != 0; faces &= faces - 1)
+          n_cells /= 2;
+        const double whole = cell_volume * n_cells / (1 << dim), closed = volume.local_element(vertex);
+        open[vertex] = { std::max(whole - closed, CutCells<dim>::smallest * cell_volume),
+                         std::max(n_cells - cells.local_element(vertex), closures::least_open_fraction),
+                         closed < (1. - closures::least_open_fraction) * whole };
+      }
   }
 
 
@@ -119,24 +102,6 @@ namespace scree
   {
     const CutCell<dim> *cut = cut_cells ? cut_cells->find(cell) : nullptr;
     return Utilities::fixed_power<dim>(grid.cell_size()) * (cut ? cut->open_hats[v] : 1. / (1 << dim));
-  }
-
-
-  template <int dim>
-  double FreeSurface<dim>::open_cells_around(const unsigned int vertex) const
-  {
-    const double all = cells_in_box(vertex);
-    return closed_cells.empty() ? all : std::max(all - closed_cells[vertex], closures::least_open_fraction);
-  }
-
-
-  template <int dim>
-  unsigned int FreeSurface<dim>::cells_in_box(const unsigned int vertex) const
-  {
-    unsigned int number = 1 << dim;
-    for (unsigned int faces = vertices.faces(vertex); faces != 0; faces &= faces - 1)
-      number /= 2;
-    return number;
   }
 
 
@@ -160,16 +125,18 @@ namespace scree
               node[wet_cells] += open;
             }
         }
-    for (const EnteringWater<dim> &entering : mixture.entering())
-      for (unsigned int v = 0; v < entering.at_vertex.size(); ++v)
-        filling[vertices.nodes(entering.cell)[v]][filled] += entering.at_vertex[v];
     filling.add_contributions();
     filling.update_ghosts();
+    touched = filling.active_nodes();
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      for (unsigned int v = 0; cell.water_volume > 0 && v < cell.n_vertices; ++v)
+        if (const unsigned int vertex = vertices.nodes(cell.cell)[v]; vertex >= vertices.n_owned())
+          touched.push_back(vertex);
   }
 
 
   template <int dim>
-  void FreeSurface<dim>::sum_soil(const Mixture<dim> &mixture)
+  void FreeSurface<dim>::find_soil_depths(Mixture<dim> &mixture)
   {
     soil.clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
@@ -182,20 +149,65 @@ namespace scree
         }
     soil.add_contributions();
     soil.update_ghosts();
+    for (MixtureCell<dim> &cell : mixture.cells())
+      for (unsigned int v = 0; cell.grain_volume > 0. && v < cell.n_vertices; ++v)
+        {
+          const unsigned int vertex = vertices.nodes(cell.cell)[v];
+          cell.soil_depths[v]       = distance_from_fill(soil[vertex][0] / volume_under(vertex));
+        }
   }
 
 
   template <int dim>
-  void FreeSurface<dim>::find_soil_depths(Mixture<dim> &mixture)
+  double FreeSurface<dim>::classify(const unsigned int vertex)
   {
-    sum_soil(mixture);
-    for (MixtureCell<dim> &cell : mixture.cells())
-      if (cell.grain_volume > 0.)
-        for (unsigned int v = 0; v < cell.n_vertices; ++v)
-          {
-            const unsigned int vertex = vertices.nodes(cell.cell)[v];
-            cell.soil_depths[v]       = distance_from_fill(soil[vertex][0] / volume_under(vertex));
-          }
+    const double *sums = filling[vertex];
+    // Overfull cells next to empty ones must not hide the surface between them: without it p has no level.
+    const double fill = std::min(sums[filled] / open[vertex].volume, sums[wet_cells] / open[vertex].cells);
+    distances[vertex] = distance_from_fill(fill);
+    kinds[vertex]     = PressureDofType::dry;
+    if (sums[wet_cells] > 0. && (walls.open_faces() & vertices.faces(vertex)) != 0)
+      {
+        kinds[vertex] = PressureDofType::prescribed;
+        return walls.pressure(vertices.faces(vertex));
+      }
+    if (sums[water] > 0. && distances[vertex] >= least_depth - 1e-9 && open[vertex].has_room)
+      {
+        kinds[vertex] = PressureDofType::unknown;
+        return sums[weighted_pressure] / sums[water];
+      }
+    return 0.;
+  }
+
+
+  template <int dim>
+  typename FreeSurface<dim>::Followers FreeSurface<dim>::find_followers(const Mixture<dim> &mixture,
+                                                                        const PressureDofType followed,
+                                                                        const PressureDofType kind)
+  {
+    Followers group{ followed, {}, {} };
+    for (const MixtureCell<dim> &cell : mixture.cells())
+      if (cell.water_volume > 0)
+        {
+          const unsigned int *nodes = vertices.nodes(cell.cell);
+          for (unsigned int v = 0; v < cell.n_vertices; ++v)
+            for (unsigned int w = 0; w < cell.n_vertices && kinds[nodes[v]] == PressureDofType::dry; ++w)
+              if (kinds[nodes[w]] == followed && (followed == PressureDofType::unknown || distances[nodes[w]] > 1e-6))
+                {
+                  group.pairs.emplace_back(nodes[v], nodes[w]);
+                  neighbours[nodes[v]][number] += 1.;
+                  neighbours[nodes[v]][sum_of_distances] += distances[nodes[w]];
+                }
+        }
+    neighbours.add_contributions();
+    neighbours.update_ghosts();
+    for (const unsigned int vertex : touched)
+      if (kinds[vertex] == kind || (kinds[vertex] == PressureDofType::dry && neighbours[vertex][number] > 0.))
+        {
+          kinds[vertex] = kind;
+          group.vertices.push_back(vertex);
+        }
+    return group;
   }
 
 
@@ -208,64 +220,21 @@ namespace scree
         pressure.local_element(vertex) = 0.;
       }
     sum_filling(mixture);
-    const auto classify = [&](const unsigned int vertex) {
-      const double *sums = filling[vertex];
-      // Overfull cells next to empty ones must not hide the surface between them: without it p has no level.
-      const double fill = std::min(sums[filled] / volume_under(vertex), sums[wet_cells] / open_cells_around(vertex));
-      PressureDofType &kind = kinds[vertex];
-      distances[vertex]     = distance_from_fill(fill);
-      kind                  = PressureDofType::dry;
-      double value          = 0.;
-      if (sums[wet_cells] > 0. && (walls.open_faces() & vertices.faces(vertex)) != 0)
-        {
-          kind  = PressureDofType::prescribed;
-          value = walls.pressure(vertices.faces(vertex));
-        }
-      else if (sums[water] > 0. && distances[vertex] >= least_depth - 1e-9 && has_room(vertex))
-        {
-          kind  = PressureDofType::unknown;
-          value = pressure_of_points(vertex);
-        }
-      pressure.local_element(vertex) = value;
-    };
-    for_all_wet_vertices(mixture, classify);
+    for (const unsigned int vertex : touched)
+      pressure.local_element(vertex) = classify(vertex);
+    unknown_vertices.clear();
+    for (const unsigned int vertex : filling.active_nodes())
+      if (kinds[vertex] == PressureDofType::unknown)
+        unknown_vertices.push_back(vertex);
 
-    // Kinds beside the surface: those with unknown neighbours, then those that have only those.
+    // Beside the surface: those with unknown neighbours, then those that have only those.
     neighbours.clear();
     for (const MixtureCell<dim> &cell : mixture.cells())
       if (cell.water_volume > 0)
         neighbours.activate_cell(cell.cell);
-    const auto spread = [&](const PressureDofType source, const PressureDofType target) {
-      for_pairs(mixture, PressureDofType::dry, source, [&](const unsigned int vertex, const unsigned int neighbour) {
-        neighbours[vertex][number] += 1.;
-        neighbours[vertex][sum_of_distances] += distances[neighbour];
-      });
-      neighbours.add_contributions();
-      neighbours.update_ghosts();
-      for_all_wet_vertices(mixture, [&](const unsigned int vertex) {
-        if (kinds[vertex] == PressureDofType::dry && neighbours[vertex][number] > 0.)
-          kinds[vertex] = target;
-      });
-    };
-    spread(PressureDofType::unknown, PressureDofType::surface);
+    followers[0] = find_followers(mixture, PressureDofType::unknown, PressureDofType::surface);
     neighbours.clear_ghosts();
-    spread(PressureDofType::surface, PressureDofType::beyond);
-    followers[0].followed = PressureDofType::unknown;
-    followers[1].followed = PressureDofType::surface;
-    for (Followers &group : followers)
-      {
-        const PressureDofType kind =
-            group.followed == PressureDofType::unknown ? PressureDofType::surface : PressureDofType::beyond;
-        group.vertices.clear();
-        group.pairs.clear();
-        for_all_wet_vertices(mixture, [&](const unsigned int vertex) {
-          if (kinds[vertex] == kind)
-            group.vertices.push_back(vertex);
-        });
-        for_pairs(mixture, kind, group.followed, [&](const unsigned int vertex, const unsigned int neighbour) {
-          group.pairs.emplace_back(vertex, neighbour);
-        });
-      }
+    followers[1] = find_followers(mixture, PressureDofType::surface, PressureDofType::beyond);
     if (has_suction())
       find_suction();
   }
@@ -318,8 +287,20 @@ namespace scree
 
 
   template <int dim>
-  void FreeSurface<dim>::restrict_to_unknown(VertexVector &sums, const Shares shares)
+  void FreeSurface<dim>::extend(const std::vector<double> &unknown, VertexVector &pressure)
   {
+    clear(pressure);
+    for (unsigned int i = 0; i < unknown.size(); ++i)
+      pressure.local_element(unknown_vertices[i]) = unknown[i];
+    pressure.update_ghost_values();
+    extend(pressure);
+  }
+
+
+  template <int dim>
+  void FreeSurface<dim>::restrict_to_unknown(VertexVector &sums, std::vector<double> &result, const Shares shares)
+  {
+    sums.compress(VectorOperation::add);
     for (unsigned int g = followers.size(); g-- > 0;)
       {
         const Followers &group = followers[g];
@@ -339,29 +320,8 @@ namespace scree
               scratch.local_element(vertex) = 0.;
             }
       }
+    take(sums, result);
   }
-
-
-  template <int dim>
-  template <typename Function>
-  void FreeSurface<dim>::for_pairs(const Mixture<dim> &mixture,
-                                   const PressureDofType kind,
-                                   const PressureDofType kind_of_neighbour,
-                                   const Function &act) const
-  {
-    for (const MixtureCell<dim> &cell : mixture.cells())
-      if (cell.water_volume > 0)
-        {
-          const unsigned int *nodes = vertices.nodes(cell.cell);
-          for (unsigned int v = 0; v < cell.n_vertices; ++v)
-            if (kinds[nodes[v]] == kind)
-              for (unsigned int w = 0; w < cell.n_vertices; ++w)
-                if (kinds[nodes[w]] == kind_of_neighbour &&
-                    (kind_of_neighbour == PressureDofType::unknown || distances[nodes[w]] > 1e-6))
-                  act(nodes[v], nodes[w]);
-        }
-  }
-
 
   template class FreeSurface<2>;
   template class FreeSurface<3>;

@@ -35,7 +35,7 @@ namespace scree
                             const CutFacet<dim> &facet,
                             const double least_mass,
                             const NodalField<dim> &phase,
-                            const PoreField<dim> *pores)
+                            const WetNodes<dim> *of_mixture)
   {
     all.push_back(row);
     facets.push_back(&facet);
@@ -45,7 +45,7 @@ namespace scree
         const unsigned int node = grid.nodes(facet.cell)[i];
         const double *values    = phase[node];
         const double mass       = values[NodalField<dim>::mass];
-        const double porosity   = pores ? 1. - (*pores)[node][PoreField<dim>::grain_fraction] : 0.;
+        const double porosity   = of_mixture ? of_mixture->porosity(node) : 0.;
         const bool acts         = mass > 0. && (row.phase == Phase::soil || porosity > 0.);
         of_flow.push_back(acts ? row.area * std::min(facet.shapes[i], mass / least_mass) : 0.);
         of_discharge.push_back(of_flow.back() * (row.phase == Phase::soil ? -1. : acts ? 1. / porosity - 1. : 0.));
@@ -132,7 +132,7 @@ namespace scree
     motions.assign(motions.size(), NodeRow{});
     const auto relax = [&](const unsigned int k) {
       const GroundRow<dim> &row = all[k];
-      if (row.diagonal == 0. || row.held == HeldMotion::none)
+      if (row.diagonal == 0. || !(row.holds_across || row.holds_along))
         return; // Nothing of the phase is there, or it has lifted off.
       NodeRow flow{};
       for (unsigned int j = k * n_nodes; j < (k + 1) * n_nodes; ++j)

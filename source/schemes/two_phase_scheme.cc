@@ -29,25 +29,25 @@ namespace scree
       , soil(grid, model.transfer, model.stabilisation, model.bodies, model.loads)
       , transfer(grid, model.transfer, with_inertia(model.water_parameters, forces.mass_scaling()))
       , mixture(grid, model.soil_points, model.cut_cells)
-      , pores(grid)
-      , water_field(grid)
-      , excess(grid)
+      , nodes(grid, soil.field)
       , ground_gaps(grid, model.cut_cells, forces.fall().norm())
-      , pressure(grid,
-                 *model.water_walls,
-                 model.pressure_parameters,
-                 with_inertia(model.water_parameters, forces.mass_scaling()),
-                 model.cut_cells,
-                 ground_gaps,
-                 timer)
+      , surface(grid, grid.vertices(), *model.water_walls, model.cut_cells, model.water_parameters.air_entry_pressure)
+      , operators(grid, grid.vertices(), surface, model.cut_cells, ground_gaps)
+      , pressure(grid, surface, operators, model.pressure_parameters, model.water_parameters, timer)
       , wall_gaps(grid, *model.constraints[0])
       , spacing(grid.cell_size() / std::min(model.soil_points, model.water_parameters.points_per_cell))
-      , momentum(grid, *model.constraints[0], wall_gaps, forces, model.water_parameters.density, timer)
+      , momentum(nodes, *model.constraints[0], wall_gaps, forces, model.water_parameters.density, timer)
       , viscosity(grid, model.water_parameters, water, timer)
       , contact(grid, model.ground, model.surfaces, model.cut_cells, ground_gaps, timer)
-      , shifting(grid, *model.constraints[0], pressure, forces.gravity(), model.water_parameters.volume_correction_rate)
+      , shifting(grid,
+                 *model.constraints[0],
+                 surface,
+                 pressure,
+                 forces.gravity(),
+                 model.water_parameters.volume_correction_rate)
   {
-    wall_gaps.add({ &soil.field, &water_field });
+    wall_gaps.add({ &nodes.soil, &nodes.water });
+    momentum.reinit(grid.n_owned_nodes());
   }
 
 
@@ -55,14 +55,12 @@ namespace scree
   void TwoPhaseScheme<dim>::gather()
   {
     mixture.clear();
-    pores.clear();
-    water_field.clear();
-    excess.clear();
+    nodes.clear();
     for (const auto &body : soil.all_bodies())
       transfer.soil_to_grid(body, mixture);
-    pressure.find_soil_depths(mixture);
+    surface.find_soil_depths(mixture);
     for (const auto &part : water)
-      transfer.to_grid(part, mixture, water_field, excess, pores);
+      transfer.to_grid(part, mixture, nodes);
     for (const Inflow<dim> &inflow : inflows)
       if (inflow.water_share > 0.)
         inflow.add_to(mixture);
@@ -93,48 +91,65 @@ namespace scree
   template <int dim>
   void TwoPhaseScheme<dim>::find_pair(const double time_step)
   {
-    const MixtureNodes<dim> nodes{ soil.field, water_field, pores };
-    excess.add_contributions();
-    excess.scale_inertia(forces.mass_scaling());
+    const TimedPart part(timer, TimerSection::nodes);
     const auto volume_of_water = [&](const unsigned int node) {
-      return water_field[node][NodalField<dim>::mass] / transfer.water_density() +
-             pores[node][PoreField<dim>::local_solid_volume];
+      return nodes.water[node][NodalField<dim>::mass] / transfer.water_density() +
+             nodes.pores[node][Pores::local_solid_volume];
     };
     const auto holds = [&](const unsigned int node, const unsigned int face) {
       return wall_gaps.is_closed_to_water(node, face);
     };
-    pressure.find_pair(mixture, volume_of_water, holds, time_step);
-    momentum.find_flux_inertia(nodes, excess, time_step);
-    momentum.add_pressure_forces(nodes, pressure, time_step);
+    pressure.locate(mixture);
+    operators.find_pair(mixture, volume_of_water, holds, time_step);
+    momentum.find_flux_inertia(time_step);
+    momentum.add_pressure_forces(pressure.impulses(time_step), operators, time_step);
   }
 
 
   template <int dim>
   void TwoPhaseScheme<dim>::solve(const double time_step, StepReport<dim> &report)
   {
-    const MixtureNodes<dim> nodes{ soil.field, water_field, pores };
     Budget<dim> &budget = report.balance;
-    sum_at_nodes(time_step);
+    sum_at_nodes(time_step); // 1. masses, momenta and forces
+    find_pair(time_step);    // 2. d, T, p^n and B
     if (water_is_held)
-      return solve_with_held_water(nodes, time_step, budget);
-    momentum.predict(nodes, time_step, transfer.kept(time_step), budget); // A v* = m v + dt (f + m g - B^T p^n)
-    contact.begin_step(mixture, pressure.free_surface());
-    viscosity.apply(nodes, momentum, contact, time_step, budget); // (A + dt K) v** = A v*
-    find_end_of_step(nodes, time_step, budget);
-    end_step(nodes, time_step, budget);
+      load_soil_with_water();
+    momentum.predict(time_step, transfer.kept(time_step), budget); // 3. A v* = m v + dt (f + m g - B^T p^n)
+    contact.begin_step(mixture, surface);
+    if (!water_is_held)
+      viscosity.apply(nodes, momentum, contact, time_step, budget);   // 4. (A + dt K) v** = A v*
+    find_pressure(time_step, budget);                                 // 5. S dp = b, and t: B u = c, N v <= c
+    momentum.correct(pressure.impulses_of_change(time_step), budget); // 6. v = v** - dt A^-1 (B^T dp + N^T t)
+    end_step(time_step, budget);                                      // 7. p = p^n + dp; the points: to_points()
   }
 
 
   template <int dim>
-  void
-  TwoPhaseScheme<dim>::find_end_of_step(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget)
+  void TwoPhaseScheme<dim>::find_pressure(const double time_step, Budget<dim> &budget)
   {
-    GroundRows<dim> *rows = contact.find_rows(nodes, mixture, pressure.free_surface(), time_step);
-    momentum.find_pressed_nodes(nodes, pressure);
-    pressure.solve(mixture, nodes, rows, water_is_held, time_step, budget); // B u = c, N v <= c
-    momentum.correct(nodes, pressure, time_step, budget);                   // v = v** - dt A^-1 (B^T dp + N^T t)
+    const auto pair_at    = [this](const unsigned int node) { return momentum.pressed_block_at(node); };
+    GroundRows<dim> *rows = contact.find_rows(nodes, mixture, surface, time_step);
+    pressure.solve(mixture, nodes, pair_at, rows, water_is_held, time_step, budget);
+  }
+
+
+  template <int dim>
+  void TwoPhaseScheme<dim>::end_step(const double time_step, Budget<dim> &budget)
+  {
     contact.count_rows(nodes, time_step, budget);
-    momentum.count_pressure_work(nodes, pressure, time_step, budget);
+    if (surface.prescribes_values())
+      momentum.count_pressure_work(pressure.prescribed_impulses(time_step), budget);
+    if (water_is_held)
+      return; // its points have the pressure
+    {
+      const TimedPart part(timer, TimerSection::nodes);
+      viscosity.count_dissipation(nodes, budget);
+      pressure.accept_change();
+      // The predictor has counted the load among the forces.
+      budget.load_impulse += soil.load_impulse(time_step);
+      budget.pressure_impulse -= soil.load_impulse(time_step);
+    }
+    contact.count_pressure(mixture, pressure, time_step, budget);
   }
 
 
@@ -142,9 +157,9 @@ namespace scree
   void TwoPhaseScheme<dim>::load_soil_with_water()
   {
     using Field = NodalField<dim>;
-    for (const unsigned int node : pores.active_nodes())
+    for (const unsigned int node : nodes.active())
       {
-        double *of_soil = soil.field[node], *of_water = water_field[node];
+        double *of_soil = nodes.soil[node], *of_water = nodes.water[node];
         if (of_soil[Field::mass] > 0.)
           {
             const double ratio = 1. + of_water[Field::mass] / of_soil[Field::mass];
@@ -167,12 +182,8 @@ namespace scree
     for (auto &one : water)
       {
         report.speeds.include_point(transfer.to_points(
-            one,
-            { soil.field, water_field, pores },
-            mixture,
-            [this](const unsigned int cell) { return pressure.pressure_of(cell); },
-            time_step));
-        shifting.apply(one, mixture, water_field, pores, time_step, report.balance);
+            one, nodes, mixture, [this](const unsigned int cell) { return pressure.pressure_of(cell); }, time_step));
+        shifting.apply(one, mixture, nodes, time_step, report.balance);
         if (const PointSet<dim> *own = one.own_points())
           report.n_updates += own->n_points();
       }
@@ -213,7 +224,7 @@ namespace scree
   std::unique_ptr<WaterView<dim>> TwoPhaseScheme<dim>::water_view() const
   {
     return std::make_unique<WaterView<dim>>(
-        WaterView<dim>{ water, water_field, [this](const unsigned int cell) { return pressure.pressure_of(cell); } });
+        WaterView<dim>{ water, nodes.water, [this](const unsigned int cell) { return pressure.pressure_of(cell); } });
   }
 
   template class TwoPhaseScheme<2>;

@@ -57,52 +57,10 @@ namespace scree
 
 
   template <int dim>
-  template <int n>
-  void WaterTransfer<dim>::add_soil(const SoilBody<dim> &soil, Mixture<dim> &mixture) const
-  {
-    const auto &layout = soil.layout;
-    const DragLaw &law = *soil.drag;
-    for (const auto &cell : soil.points.cells())
-      {
-        const OpenKnots open      = grid.open_knots(cell.cell);
-        const unsigned int record = mixture.record(cell.cell);
-        MixtureCell<dim> sums     = mixture.cells()[record];
-        auto *parts               = point_sets == PointSets::double_point ? &mixture.soil_parts(record) : nullptr;
-
-        for_each_record_with_shape<n>(
-            cell, layout.volume + 1, open, grid.cell_size(), [&](const auto &point, const auto &shape) {
-              const double *properties    = point.properties;
-              const double mass           = properties[layout.mass];
-              const double volume         = properties[layout.volume];
-              const double grains         = mass / soil.grain_density;
-              const double porosity       = std::max(1. - grains / volume, smallest_porosity);
-              const double pores_of_point = porosity * volume;
-              if (parts != nullptr)
-                parts->add_soil(shape.x,
-                                grains,
-                                volume,
-                                volume * law.linear(porosity) / porosity,
-                                grains * law.inertial(porosity) / porosity);
-              add_row<dim>(grains * vertex_values(shape.x), sums.grains_at_vertex);
-              sums.soil_mass += mass;
-              sums.grain_volume += grains;
-              sums.pore_volume += pores_of_point;
-            });
-        sums.is_rigid           = sums.is_rigid || soil.is_rigid;
-        mixture.cells()[record] = sums;
-      }
-  }
-
-
-  template <int dim>
   template <int n, bool is_affine>
-  void WaterTransfer<dim>::add_water(const WaterPhase<dim> &water,
-                                     Mixture<dim> &mixture,
-                                     NodalField<dim> &field,
-                                     NodalField<dim> &excess,
-                                     PoreField<dim> &pores) const
+  void WaterTransfer<dim>::add_water(const WaterPhase<dim> &water, Mixture<dim> &mixture, WetNodes<dim> &nodes) const
   {
-    using Pores                   = typename PorosityOfParts<dim>::Pores;
+    using PoresAbout              = typename PorosityOfParts<dim>::PoresAbout;
     constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
     const SoilBody<dim> *carrier  = water.carrier();
     const double width            = grid.cell_size();
@@ -117,26 +75,26 @@ namespace scree
         MixtureCell<dim> totals = mixture.cells()[record];
         CellSums<dim, n> sums(width);
         CellSums<dim, n> excess_sums(width);
-        NodeRow grains_about[n_rows] = {}, inertia[n_rows] = {}, drag[n_rows] = {}, inertial[n_rows] = {};
-        const bool has_pores = porosity != nullptr || carrier != nullptr;
-        const auto pores_at  = [&](const auto &point, const Point<dim> &x) {
+        NodeRow pore_sums[4][n_rows] = {}; // by the first numbers of Pores
+        const bool has_pores         = porosity != nullptr || carrier != nullptr;
+        const auto pores_at          = [&](const auto &point, const Point<dim> &x) {
           if (porosity != nullptr)
             return porosity->at(x);
           if (carrier == nullptr)
-            return Pores{ 1., 0., 0. };
+            return PoresAbout{ 1., 0., 0. };
           const double porous = std::max(carrier->porosity(point.properties), smallest_porosity);
-          return Pores{ 1. / porous,
-                        carrier->drag->linear(porous) / porous,
-                        (1. - porous) * carrier->drag->inertial(porous) / porous };
+          return PoresAbout{ 1. / porous,
+                             carrier->drag->linear(porous) / porous,
+                             (1. - porous) * carrier->drag->inertial(porous) / porous };
         };
 
         for_each_record_with_shape<n>(cell, cell.stride, open, width, [&](const auto &point, const auto &shape) {
           const double *properties = point.properties, *affine = properties + layout.affine;
           const double mass = properties[layout.mass], volume = properties[layout.volume];
           sums.template add_momentum<is_affine>(shape, mass, properties + layout.velocity, affine);
-          const Pores about = pores_at(point, shape.x);
-          const double more = about.inverse_porosity - 1.;
-          const double bulk = about.inverse_porosity * volume;
+          const PoresAbout about = pores_at(point, shape.x);
+          const double more      = about.inverse_porosity - 1.;
+          const double bulk      = about.inverse_porosity * volume;
           add_row<dim>(bulk * vertex_values(shape.x), totals.bulk_at_vertex);
           totals.bulk_volume += bulk;
           totals.mass_of_flux += about.inverse_porosity * mass;
@@ -144,10 +102,10 @@ namespace scree
           totals.drag_of_flux += bulk * about.resistance;
           if (has_pores)
             {
-              add_row_sums(shape, volume * more, grains_about);
-              add_row_sums(shape, volume * more * (2. + more), inertia);
-              add_row_sums(shape, bulk * about.resistance, drag);
-              add_row_sums(shape, bulk * about.inertial, inertial);
+              add_row_sums(shape, bulk * about.resistance, pore_sums[Pores::drag]);
+              add_row_sums(shape, bulk * about.inertial, pore_sums[Pores::inertial_drag]);
+              add_row_sums(shape, volume * more, pore_sums[Pores::local_solid_volume]);
+              add_row_sums(shape, volume * more * (2. + more), pore_sums[Pores::flux_inertia]);
               excess_sums.template add_momentum<is_affine>(shape, mass * more, properties + layout.velocity, affine);
             }
 
@@ -160,18 +118,17 @@ namespace scree
         });
         mixture.cells()[record] = totals;
 
-        field.activate_cell(cell.cell);
-        sums.scatter(grid.nodes(cell.cell), field);
+        const unsigned int *of_cell = grid.nodes(cell.cell);
+        nodes.water.activate_cell(cell.cell);
+        sums.scatter(of_cell, nodes.water);
         if (has_pores)
           {
-            const unsigned int *nodes = grid.nodes(cell.cell);
-            pores.activate_cell(cell.cell);
-            scatter<dim, n>(grains_about, nodes, PoreField<dim>::local_solid_volume, pores);
-            excess.activate_cell(cell.cell);
-            excess_sums.scatter(nodes, excess);
-            scatter<dim, n>(inertia, nodes, PoreField<dim>::flux_inertia, pores);
-            scatter<dim, n>(drag, nodes, PoreField<dim>::drag, pores);
-            scatter<dim, n>(inertial, nodes, PoreField<dim>::inertial_drag, pores);
+            nodes.pores.activate_cell(cell.cell);
+            excess_sums.scatter_momentum(of_cell, Pores::excess_mass, nodes.pores);
+            for (unsigned int r = 0; r < n_rows; ++r)
+              for (unsigned int i = 0; i < n; ++i)
+                for (unsigned int c = 0; c < 4; ++c)
+                  nodes.pores[of_cell[r * n + i]][c] += pore_sums[c][r][i];
           }
       }
   }
@@ -179,35 +136,9 @@ namespace scree
 
   template <int dim>
   template <int n, TransferMethod method>
-  double WaterTransfer<dim>::move_water(WaterPhase<dim> &water,
-                                        const MixtureNodes<dim> &nodes,
-                                        const Mixture<dim> &mixture,
-                                        const PressureOfCell<dim> &vertex_pressure,
-                                        const double time_step) const
-  {
-    const double keep = kept(time_step);
-    LargestSquare largest;
-    for (const auto &cell : water.points().cells())
-      {
-        const Multilinear<dim> pressure = multilinear_of<dim>(vertex_pressure(cell.cell));
-        move_cell<n, method>(
-            water, cell, nodes, mixture.porosity_of_parts(cell.cell), pressure, time_step, keep, largest);
-        if (const SoilBody<dim> *soil = water.carrier())
-          for_each_point(cell, [&](const auto &point) {
-            double &volume                      = point.properties[water.layout.volume];
-            volume                              = std::max(soil->pore_volume(point.properties), 0.);
-            point.properties[water.layout.mass] = water.density * volume;
-          });
-      }
-    return largest.speed();
-  }
-
-
-  template <int dim>
-  template <int n, TransferMethod method>
   void WaterTransfer<dim>::move_cell(const WaterPhase<dim> &water,
                                      const CellPoints<dim> &cell,
-                                     const MixtureNodes<dim> &nodes,
+                                     const WetNodes<dim> &nodes,
                                      const PorosityOfParts<dim> *porosity,
                                      const Multilinear<dim> &pressure,
                                      const double time_step,
@@ -221,7 +152,7 @@ namespace scree
     const bool is_alone     = water.carrier() == nullptr;
     const CellVelocity<dim, n> velocity(ids, nodes.water, width);
     std::optional<PoreVelocity<dim, n>> by_place;
-    if (is_alone && PoreVelocity<dim, n>::differs(ids, nodes.pores))
+    if (is_alone && PoreVelocity<dim, n>::differs(ids, nodes))
       by_place.emplace(ids, velocity, nodes, width);
 
     for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
@@ -259,37 +190,80 @@ namespace scree
   template <int dim>
   void WaterTransfer<dim>::soil_to_grid(const SoilBody<dim> &soil, Mixture<dim> &mixture) const
   {
-    with_nodes_1d(grid, [&](auto n) { add_soil<n>(soil, mixture); });
+    with_nodes_1d(grid, [&](auto n) {
+      const auto &layout = soil.layout;
+      const DragLaw &law = *soil.drag;
+      for (const auto &cell : soil.points.cells())
+        {
+          const OpenKnots open      = grid.open_knots(cell.cell);
+          const unsigned int record = mixture.record(cell.cell);
+          MixtureCell<dim> sums     = mixture.cells()[record];
+          auto *parts               = point_sets == PointSets::double_point ? &mixture.soil_parts(record) : nullptr;
+
+          for_each_record_with_shape<n>(
+              cell, layout.volume + 1, open, grid.cell_size(), [&](const auto &point, const auto &shape) {
+                const double *properties    = point.properties;
+                const double mass           = properties[layout.mass];
+                const double volume         = properties[layout.volume];
+                const double grains         = mass / soil.grain_density;
+                const double porosity       = std::max(1. - grains / volume, smallest_porosity);
+                const double pores_of_point = porosity * volume;
+                if (parts != nullptr)
+                  parts->add_soil(shape.x,
+                                  grains,
+                                  volume,
+                                  volume * law.linear(porosity) / porosity,
+                                  grains * law.inertial(porosity) / porosity);
+                add_row<dim>(grains * vertex_values(shape.x), sums.grains_at_vertex);
+                sums.soil_mass += mass;
+                sums.grain_volume += grains;
+                sums.pore_volume += pores_of_point;
+              });
+          sums.is_rigid           = sums.is_rigid || soil.is_rigid;
+          mixture.cells()[record] = sums;
+        }
+    });
   }
 
 
   template <int dim>
-  void WaterTransfer<dim>::to_grid(const WaterPhase<dim> &water,
-                                   Mixture<dim> &mixture,
-                                   NodalField<dim> &field,
-                                   NodalField<dim> &excess,
-                                   PoreField<dim> &pores) const
+  void WaterTransfer<dim>::to_grid(const WaterPhase<dim> &water, Mixture<dim> &mixture, WetNodes<dim> &nodes) const
   {
     with_nodes_1d(grid, [&](auto n) {
       if (carries_affine(method))
-        add_water<n, true>(water, mixture, field, excess, pores);
+        add_water<n, true>(water, mixture, nodes);
       else
-        add_water<n, false>(water, mixture, field, excess, pores);
+        add_water<n, false>(water, mixture, nodes);
     });
   }
 
 
   template <int dim>
   double WaterTransfer<dim>::to_points(WaterPhase<dim> &water,
-                                       const MixtureNodes<dim> &nodes,
+                                       const WetNodes<dim> &nodes,
                                        const Mixture<dim> &mixture,
                                        const PressureOfCell<dim> &pressure,
                                        const double time_step) const
   {
-    return with_nodes_1d(grid, [&](auto n) {
-      return with_method(
-          method, [&](auto of_points) { return move_water<n, of_points>(water, nodes, mixture, pressure, time_step); });
-    });
+    const double keep = kept(time_step);
+    LargestSquare largest;
+    for (const auto &cell : water.points().cells())
+      {
+        const Multilinear<dim> of_cell = multilinear_of<dim>(pressure(cell.cell));
+        const auto *porosity           = mixture.porosity_of_parts(cell.cell);
+        with_nodes_1d(grid, [&](auto n) {
+          with_method(method, [&](auto of_points) {
+            move_cell<n, of_points>(water, cell, nodes, porosity, of_cell, time_step, keep, largest);
+          });
+        });
+        if (const SoilBody<dim> *soil = water.carrier())
+          for_each_point(cell, [&](const auto &point) {
+            double &volume                      = point.properties[water.layout.volume];
+            volume                              = std::max(soil->pore_volume(point.properties), 0.);
+            point.properties[water.layout.mass] = water.density * volume;
+          });
+      }
+    return largest.speed();
   }
 
   template class WaterTransfer<2>;

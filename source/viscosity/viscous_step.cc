@@ -39,83 +39,57 @@ namespace scree
 
 
   template <int dim>
-  template <int n>
-  void ViscousForce<dim>::add_points(const WaterPhase<dim> &water,
-                                     const NodalField<dim> &motion,
-                                     NodalField<dim> &field) const
-  {
-    for (const auto &cell : water.points().cells())
-      {
-        const OpenKnots open      = grid.open_knots(cell.cell);
-        const unsigned int *nodes = grid.nodes(cell.cell);
-        const CellVelocity<dim, n> velocity(nodes, motion, grid.cell_size());
-        CellSums<dim, n> sums(grid.cell_size());
-        for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
-          RecordPointers<const double> places;
-          for (unsigned int l = 0; l < batch_size; ++l)
-            places[l] = &cell.reference_location_of(indices[l])[0];
-          const auto at_points = velocity.template at<TransferMethod::tpic, true>(BatchShape<dim, n>(places, open));
-          for (unsigned int l = 0; l < n_used; ++l)
-            {
-              const PointShape<dim, n> shape(cell.reference_location_of(indices[l]), open);
-              Tensor<2, dim> gradient;
-              for (unsigned int c = 0; c < dim; ++c)
-                for (unsigned int d = 0; d < dim; ++d)
-                  gradient[c][d] = at_points.gradient[c * dim + d][l];
-              sums.add_force(shape,
-                             viscosity * cell.properties_of(indices[l])[water.layout.volume],
-                             twice_deviatoric_rate(gradient));
-            }
-        });
-        field.activate_cell(cell.cell);
-        sums.scatter(nodes, field);
-      }
-  }
-
-
-  template <int dim>
-  template <int n>
-  double ViscousForce<dim>::bound(const WaterPhase<dim> &water) const
-  {
-    double largest = 0;
-    for (const auto &cell : water.points().cells())
-      for_each_point(cell, [&, open = grid.open_knots(cell.cell)](const auto &point) {
-        if (const double product = viscosity * point.properties[water.layout.volume]; product > 0.)
-          largest = std::max(largest,
-                             product / point.properties[water.layout.mass] *
-                                 stiffness<dim, n>(point.reference_location, open));
-      });
-    return 2. * largest / (grid.cell_size() * grid.cell_size());
-  }
-
-
-  template <int dim>
   void ViscousForce<dim>::add(const WaterPhase<dim> &water, const NodalField<dim> &motion, NodalField<dim> &field) const
   {
-    with_nodes_1d(grid, [&](auto n) { add_points<n>(water, motion, field); });
+    with_nodes_1d(grid, [&](auto n) {
+      for (const auto &cell : water.points().cells())
+        {
+          const OpenKnots open      = grid.open_knots(cell.cell);
+          const unsigned int *nodes = grid.nodes(cell.cell);
+          const CellVelocity<dim, n> velocity(nodes, motion, grid.cell_size());
+          CellSums<dim, n> sums(grid.cell_size());
+          for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
+            RecordPointers<const double> places;
+            for (unsigned int l = 0; l < batch_size; ++l)
+              places[l] = &cell.reference_location_of(indices[l])[0];
+            const auto at_points = velocity.template at<TransferMethod::tpic, true>(BatchShape<dim, n>(places, open));
+            for (unsigned int l = 0; l < n_used; ++l)
+              {
+                const PointShape<dim, n> shape(cell.reference_location_of(indices[l]), open);
+                Tensor<2, dim> gradient;
+                for (unsigned int c = 0; c < dim; ++c)
+                  for (unsigned int d = 0; d < dim; ++d)
+                    gradient[c][d] = at_points.gradient[c * dim + d][l];
+                sums.add_force(shape,
+                               viscosity * cell.properties_of(indices[l])[water.layout.volume],
+                               twice_deviatoric_rate(gradient));
+              }
+          });
+          field.activate_cell(cell.cell);
+          sums.scatter(nodes, field);
+        }
+    });
+  }
+
+  template <int dim>
+  double ViscousForce<dim>::largest_rate(const WaterPhase<dim> &water) const
+  {
+    return with_nodes_1d(grid, [&](auto n) {
+      double largest = 0;
+      for (const auto &cell : water.points().cells())
+        for_each_point(cell, [&, open = grid.open_knots(cell.cell)](const auto &point) {
+          if (const double product = viscosity * point.properties[water.layout.volume]; product > 0.)
+            largest = std::max(largest,
+                               product / point.properties[water.layout.mass] *
+                                   stiffness<dim, n>(point.reference_location, open));
+        });
+      return 2. * largest / (grid.cell_size() * grid.cell_size());
+    });
   }
 
 
   template class ViscousForce<2>;
   template class ViscousForce<3>;
-
-
-  namespace
-  {
-    template <int dim>
-    SoilAndWater<dim> velocities(const MixtureNodes<dim> &nodes, const unsigned int node)
-    {
-      return { vector_of<dim>(nodes.soil[node] + NodalField<dim>::velocity),
-               vector_of<dim>(nodes.water[node] + NodalField<dim>::velocity) };
-    }
-
-    template <int dim>
-    void add(SoilAndWater<dim> &to, const double factor, const SoilAndWater<dim> &other)
-    {
-      to.soil += factor * other.soil;
-      to.water += factor * other.water;
-    }
-  } // namespace
 
 
   template <int dim>
@@ -214,33 +188,26 @@ namespace scree
         find_impulses(*motion, bed, 0., time_step);
         Vector image(active.size()); // (A + dt K) direction
         for (unsigned int i = 0; i < active.size(); ++i)
-          {
-            image[i] = pairs[i].impulses(direction[i]);
-            add(image[i], -1., pairs[i].free_part(impulses_at(active[i])));
-          }
+          image[i] = pairs[i].impulses(direction[i]) - pairs[i].free_part(impulses_at(active[i]));
         const double length = energy / product(direction, image);
         for (unsigned int i = 0; i < active.size(); ++i)
           {
-            add(velocity[i], length, direction[i]);
-            add(residual[i], -length, image[i]);
+            velocity[i] += length * direction[i];
+            residual[i] += -length * image[i];
             scaled[i] = pairs[i].solve(residual[i]);
           }
         const double before = energy;
         energy              = product(residual, scaled);
         for (unsigned int i = 0; i < active.size(); ++i)
-          {
-            SoilAndWater<dim> next = scaled[i];
-            add(next, energy / before, direction[i]);
-            direction[i] = next;
-          }
+          direction[i] = scaled[i] + energy / before * direction[i];
       }
     return iteration;
   }
 
 
   template <int dim>
-  void ViscousStep<dim>::apply(const MixtureNodes<dim> &nodes,
-                               const TwoPhaseMomentum<dim> &step,
+  void ViscousStep<dim>::apply(WetNodes<dim> &nodes,
+                               TwoPhaseMomentum<dim> &step,
                                CutCellContact<dim> &bed,
                                const double time_step,
                                Budget<dim> &balance)
@@ -248,10 +215,10 @@ namespace scree
     if (water_viscosity == 0.)
       return;
     const TimedPart part(timer, TimerSection::nodes);
-    active = nodes.pores.active_nodes();
+    active = nodes.active();
     pairs.clear();
     for (const unsigned int node : active)
-      pairs.push_back(step.drag_block_at(nodes, node));
+      pairs.push_back(step.drag_block_at(node));
     constexpr double stable = 2.; // beyond, an explicit step turns the fastest motion round and makes it grow
     const bool is_long      = time_step * largest_rate() > stable;
     find_impulses(nodes.water, is_long ? &bed : nullptr, 1., time_step);
@@ -259,7 +226,7 @@ namespace scree
       {
         Vector velocity;
         for (const unsigned int node : active)
-          velocity.push_back(velocities(nodes, node));
+          velocity.push_back(nodes.velocities(node));
         const unsigned int n_iterations = solve(velocity, &bed, time_step);
         if (Utilities::MPI::this_mpi_process(grid.communicator()) == 0)
           balance.n_viscous_iterations += n_iterations;
@@ -269,7 +236,7 @@ namespace scree
         bed.take_viscous_force(*motion, water_viscosity, time_step);
       }
     for (const unsigned int node : active)
-      step.push(nodes, node, impulses_at(node), balance);
+      step.push(node, impulses_at(node), balance);
     nodes.update_velocity_ghosts();
     if (is_long && bed.no_slip()) // which counts its own impulses
       find_impulses(*motion, nullptr, 1., time_step);
@@ -277,7 +244,7 @@ namespace scree
 
 
   template <int dim>
-  void ViscousStep<dim>::count_dissipation(const MixtureNodes<dim> &nodes, Budget<dim> &balance) const
+  void ViscousStep<dim>::count_dissipation(const WetNodes<dim> &nodes, Budget<dim> &balance) const
   {
     for (const unsigned int node : active)
       {

@@ -102,15 +102,10 @@ struct WetScene
   void gather()
   {
     transfer->soil_to_grid(soil, mixture);
-    transfer->to_grid(water, mixture, water_field, excess, pores);
+    transfer->to_grid(water, mixture, nodes);
     for (const auto &cell : mixture.cells())
-      {
-        soil_field.activate_cell(cell.cell);
-        pores.activate_cell(cell.cell);
-        water_field.activate_cell(cell.cell);
-      }
-    pores.add_contributions();
-    water_field.add_contributions();
+      nodes.activate_cell(cell.cell);
+    nodes.add_contributions(1.);
   }
 
   const BackgroundGrid<dim> grid;
@@ -120,8 +115,8 @@ struct WetScene
   TransferParameters transfer_parameters;
   std::unique_ptr<WaterTransfer<dim>> transfer;
   Mixture<dim> mixture;
-  PoreField<dim> pores{ grid };
-  NodalField<dim> soil_field{ grid }, water_field{ grid }, excess{ grid };
+  NodalField<dim> soil_field{ grid };
+  WetNodes<dim> nodes{ grid, soil_field };
 };
 
 

@@ -3,19 +3,12 @@
 #define scree_boundary_drag_block_h
 
 #include <scree/boundary/node_constraint.h>
+#include <scree/mixture/wet_nodes.h>
 
 #include <cmath>
 
 namespace scree
 {
-  /// A vector of the soil and one of the water at a node.
-  template <int dim>
-  struct SoilAndWater
-  {
-    dealii::Tensor<1, dim> soil, ///< vector of the soil
-        water;                   ///< vector of the water
-  };
-
   /// What an impulse of 1 N s on a phase does to it, and to the other phase, 1/kg.
   struct DragMobility
   {
@@ -33,16 +26,6 @@ namespace scree
         return { (water_mass + drag) / determinant, (soil_mass + drag) / determinant, drag / determinant };
       }
     return { soil_mass > 0. ? 1. / soil_mass : 0., water_mass > 0. ? 1. / water_mass : 0., 0. };
-  }
-
-  /// A phase without mass takes the other's vector.
-  template <int dim>
-  void follow(const double soil_mass, const double water_mass, SoilAndWater<dim> &vectors)
-  {
-    if (soil_mass <= 0.)
-      vectors.soil = vectors.water;
-    if (water_mass <= 0.)
-      vectors.water = vectors.soil;
   }
 
   /// Soil and water at a node, tied by drag: [[m_s + C, -C], [-C, m_w + C]] v = r, where walls leave them free to move;
@@ -90,7 +73,10 @@ namespace scree
     /// A phase without mass takes the other's vector.
     void follow(SoilAndWater<dim> &vectors) const
     {
-      scree::follow(soil_mass, water_mass, vectors);
+      if (soil_mass <= 0.)
+        vectors.soil = vectors.water;
+      if (water_mass <= 0.)
+        vectors.water = vectors.soil;
     }
 
     /// Speed at which soil and water pass each other, m/s, if the drag is C + `inertial` times this speed: exact where

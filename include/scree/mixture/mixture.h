@@ -89,11 +89,7 @@ namespace scree
                   const double resistance,
                   const double inertial)
     {
-      Part &part = parts[part_of(x)];
-      part.grains += grains;
-      part.volume += volume;
-      part.resistance += resistance;
-      part.inertial += inertial;
+      parts[part_of(x)] += { grains, volume, resistance, inertial };
     }
 
     /// Finds porosities and resistances, when all soil is in. Soil that does not fill its part shares it with free
@@ -106,12 +102,7 @@ namespace scree
     {
       Part cell;
       for (unsigned int p = 0; p < dealii::Utilities::fixed_power<dim>(n_1d); ++p)
-        {
-          cell.grains += parts[p].grains;
-          cell.volume += parts[p].volume;
-          cell.resistance += parts[p].resistance;
-          cell.inertial += parts[p].inertial;
-        }
+        cell += parts[p];
       // Less than `whole` is no scatter of points: to take it for that lends water at a face the grains of its
       // neighbourhood, and consolidating mud blows up.
       const double whole = volume / dealii::Utilities::fixed_power<dim>(n_1d);
@@ -132,27 +123,21 @@ namespace scree
     }
 
     /// The pores about a point of water.
-    struct Pores
+    struct PoresAbout
     {
-      double inverse_porosity; ///< -
+      double inverse_porosity; ///< -; 1 without soil
       double resistance;       ///< pressure gradient of slow flow over the discharge, N s/m^4
       double inertial;         ///< what that grows by with the discharge, N s^2/m^5
     };
 
     /// Pores about a place of the cell, after find().
-    Pores at(const dealii::Point<dim> &x) const
+    PoresAbout at(const dealii::Point<dim> &x) const
     {
       const Part &part = parts[part_of(x)];
       return { part.inverse_porosity, part.resistance, part.inertial };
     }
 
-    /// 1 over the porosity about a place of the cell, -; 1 without soil.
-    double inverse_at(const dealii::Point<dim> &x) const
-    {
-      return parts[part_of(x)].inverse_porosity;
-    }
-
-    /// The same about a batch of places.
+    /// Their inverse porosity about a batch of places.
     Batch inverse_at(const std::array<Batch, dim> &x) const
     {
       using Integers   = int __attribute__((vector_size(batch_size * sizeof(int))));
@@ -168,8 +153,16 @@ namespace scree
     struct Part
     {
       double grains = 0, volume = 0;       // m^3
-      double resistance = 0, inertial = 0; // see Pores; times volume until find()
+      double resistance = 0, inertial = 0; // see PoresAbout; times volume until find()
       double inverse_porosity = 1;
+
+      void operator+=(const Part &other)
+      {
+        grains += other.grains;
+        volume += other.volume;
+        resistance += other.resistance;
+        inertial += other.inertial;
+      }
     };
 
     /// A function that is linear along each axis, at the centre of a part.
@@ -267,14 +260,6 @@ namespace scree
     return values;
   }
 
-  /// Water on its way into a cell, weighted with the linear functions of the vertices, m^3.
-  template <int dim>
-  struct EnteringWater
-  {
-    unsigned int cell;                               ///< active cell index
-    typename MixtureCell<dim>::AtVertices at_vertex; ///< m^3, in deal.II's order
-  };
-
   /// Soil and water in the cells that hold points: sums of each cell, and the porosity of its parts.
   template <int dim>
   class Mixture
@@ -305,7 +290,6 @@ namespace scree
         record_of_cell[cell.cell] = dealii::numbers::invalid_unsigned_int;
       records.clear();
       porosities.clear();
-      entering_water.clear();
     }
 
     /// The number of a cell's record, which is made if there is none.
@@ -342,16 +326,8 @@ namespace scree
       const unsigned int record = record_of_cell[cell];
       if (record == dealii::numbers::invalid_unsigned_int || records[record].water_volume <= 0)
         return;
-      EnteringWater<dim> entering{ cell, {} };
-      for (unsigned int v = 0; v < entering.at_vertex.size(); ++v)
-        entering.at_vertex[v] = volume * dealii::GeometryInfo<dim>::d_linear_shape_function(place, v);
-      entering_water.push_back(entering);
-    }
-
-    /// Sums of add_entering().
-    const std::vector<EnteringWater<dim>> &entering() const
-    {
-      return entering_water;
+      for (unsigned int v = 0; v < MixtureCell<dim>::n_vertices; ++v)
+        records[record].bulk_at_vertex[v] += volume * dealii::GeometryInfo<dim>::d_linear_shape_function(place, v);
     }
 
     /// Records of the cells that hold points, by the numbers of record().
@@ -393,8 +369,7 @@ namespace scree
     const double cell_volume;       // m^3
     const CutCells<dim> *cut_cells; // may be null
     std::vector<MixtureCell<dim>> records;
-    std::vector<unsigned int> record_of_cell; // by active cell index
-    std::vector<EnteringWater<dim>> entering_water;
+    std::vector<unsigned int> record_of_cell;     // by active cell index
     std::vector<PorosityOfParts<dim>> porosities; // of the first records, which have soil
   };
 } // namespace scree

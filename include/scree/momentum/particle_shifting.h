@@ -19,6 +19,7 @@ namespace scree
     /// @param rate at which the surplus of a vertex decays, 1/s; 0: points are not moved
     ParticleShifting(const BackgroundGrid<dim> &grid,
                      const Constraints<dim> &constraints,
+                     const FreeSurface<dim> &surface,
                      PorePressure<dim> &pressure,
                      const dealii::Tensor<1, dim> &gravity,
                      const double rate);
@@ -29,8 +30,7 @@ namespace scree
     /// Moves points of water's own, after the step's solve and before they are sorted. Collective.
     void apply(WaterPhase<dim> &water,
                const Mixture<dim> &mixture,
-               const NodalField<dim> &water_field,
-               const PoreField<dim> &pores,
+               const WetNodes<dim> &nodes,
                const double time_step,
                Budget<dim> &balance);
 
@@ -43,21 +43,19 @@ namespace scree
     bool find_potential(const Mixture<dim> &mixture, const double time_step, Budget<dim> &balance);
 
     /// The way of the nodes, m, that this flow makes of water.
-    void find_shifts(const Mixture<dim> &mixture,
-                     const NodalField<dim> &water_field,
-                     const PoreField<dim> &pores,
-                     const double time_step);
+    void find_shifts(const Mixture<dim> &mixture, const WetNodes<dim> &nodes, const double time_step);
 
     /// Moves the points with the nodes.
-    template <int n>
     void move(WaterPhase<dim> &water, Budget<dim> &balance) const;
 
     const BackgroundGrid<dim> &grid;
     const Constraints<dim> &constraints;
+    const FreeSurface<dim> &surface;
     PorePressure<dim> &pressure;
     const dealii::Tensor<1, dim> gravity;
     const double rate; // 1/s
-    VertexVector volume_inside, source;
+    VertexVector volume_inside;
+    std::vector<double> source;                 // by owned unknown, m^3/s
     std::optional<NodeValues<dim, dim>> shifts; // of water, m
   };
 } // namespace scree

@@ -11,41 +11,6 @@
 
 namespace scree
 {
-  /// Pressures by owned unknown, Pa, and tractions by row of the ground, Pa; or flows, m^dim/s.
-  template <int dim>
-  struct PressuresAndTractions
-  {
-    std::vector<double> pressures;               ///< by owned unknown
-    typename GroundRows<dim>::Vectors tractions; ///< by row
-
-    /// All is 0.
-    void clear(const std::size_t n_pressures, const std::size_t n_rows)
-    {
-      pressures.assign(n_pressures, 0.);
-      tractions.assign(n_rows, dealii::Tensor<1, dim>());
-    }
-
-    /// *this = factor * *this + other_factor * other.
-    void sadd(const double factor, const double other_factor, const PressuresAndTractions &other)
-    {
-      for (unsigned int i = 0; i < pressures.size(); ++i)
-        pressures[i] = factor * pressures[i] + other_factor * other.pressures[i];
-      for (unsigned int k = 0; k < tractions.size(); ++k)
-        tractions[k] = factor * tractions[k] + other_factor * other.tractions[k];
-    }
-
-    /// This rank's part of the scalar product.
-    double operator*(const PressuresAndTractions &other) const
-    {
-      double sum = 0.;
-      for (unsigned int i = 0; i < pressures.size(); ++i)
-        sum += pressures[i] * other.pressures[i];
-      for (unsigned int k = 0; k < tractions.size(); ++k)
-        sum += tractions[k] * other.tractions[k];
-      return sum;
-    }
-  };
-
   /// The least of x S x/2 - x b over pressures that are not below their bounds and tractions that do not pull at rows
   /// that only press, with S symmetric and positive: a quadratic program.
   ///
@@ -73,7 +38,7 @@ namespace scree
 
     /// Sets source and solution to 0.
     /// @param n_pressures owned unknowns of this rank
-    /// @param of_ground its rows, whose HeldMotion the program changes; null: none on any rank
+    /// @param of_ground its rows; the program changes what they hold across the ground; null: none on any rank
     void begin(const std::size_t n_pressures, std::vector<GroundRow<dim>> *of_ground);
 
     /// Holds what of the solution is at its bounds or beyond, and puts it there.

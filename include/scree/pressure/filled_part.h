@@ -72,9 +72,6 @@ namespace scree
     /// Adds the integrals to `all_integrals`; returns where they begin.
     unsigned int add_integrals(const CubicWeights<dim> &part, const OpenKnots open);
 
-    template <int n>
-    void integrate(const CubicWeights<dim> &part, const OpenKnots open, NodeRow *integrals) const;
-
     /// Takes a part into the cells.
     void add(const unsigned int cell,
              const unsigned int record,
@@ -107,13 +104,6 @@ namespace scree
 
     /// The same through the ground on which the pressure acts, in the last one of the cells.
     void add_ground(const CutCell<dim> &cut, const AtVertices &depths, const OpenKnots open, const double time_step);
-
-    template <int n>
-    void integrate_faces(const std::vector<SimplexFace<dim>> &faces,
-                         const dealii::Tensor<1, dim> &normal,
-                         const OpenKnots open,
-                         NodeRow *integrals,
-                         AtVertices &hats) const;
 
     const BackgroundGrid<dim> &grid;
     const NodeNumbering<dim> &vertices;

@@ -51,7 +51,7 @@ namespace scree
     /// Fits it to ground that has moved, on the mesh as it was. Collective.
     void follow_ground()
     {
-      find_closed();
+      find_open();
     }
 
     /// Finds how deep the vertices are in the soil of a mixture, by what of their surroundings it fills. Collective.
@@ -65,6 +65,10 @@ namespace scree
     /// Collective; ghosts hold values afterwards.
     void extend(VertexVector &pressure);
 
+    /// Sets a pressure at all wet vertices from the numbers of unknowns(): T. Collective; ghosts hold values
+    /// afterwards.
+    void extend(const std::vector<double> &unknown, VertexVector &pressure);
+
     /// How restrict_to_unknown() weights a vertex beside the surface.
     enum class Shares
     {
@@ -72,8 +76,24 @@ namespace scree
       squared      ///< for the diagonal of a matrix between extend() and its transpose
     };
 
-    /// Adds to the unknown owned vertices what those beside the surface have. Collective.
-    void restrict_to_unknown(VertexVector &sums, const Shares shares = Shares::as_they_are);
+    /// Sums this rank's parts of `sums` over ranks, and adds to the unknowns what the vertices beside the surface have:
+    /// T^T, by owned unknown. Collective.
+    void
+    restrict_to_unknown(VertexVector &sums, std::vector<double> &result, const Shares shares = Shares::as_they_are);
+
+    /// The owned vertices whose pressure is a degree of freedom.
+    const std::vector<unsigned int> &unknowns() const
+    {
+      return unknown_vertices;
+    }
+
+    /// Sets `result` to a vector's values at these.
+    void take(const VertexVector &values, std::vector<double> &result) const
+    {
+      result.clear();
+      for (const unsigned int vertex : unknown_vertices)
+        result.push_back(values.local_element(vertex));
+    }
 
     /// Sets the wet vertices to 0, ghosts too.
     void clear(VertexVector &values) const;
@@ -123,7 +143,10 @@ namespace scree
     }
 
     /// Integral of a vertex's linear function over what is open of the box, m^3.
-    double volume_under(const unsigned int vertex) const;
+    double volume_under(const unsigned int vertex) const
+    {
+      return open[vertex].volume;
+    }
 
     /// The same over a cell of this rank that has the vertex as its `v`th.
     double volume_in_cell(const unsigned int cell, const unsigned int v) const;
@@ -179,61 +202,13 @@ namespace scree
       sum_of_distances // cells
     };
 
-    /// Whether dry soil behind the surface pulls at the water.
-    bool has_suction() const
+    /// What rigid ground leaves of a vertex's surroundings.
+    struct Open
     {
-      return air_entry > 0.;
-    }
-
-    /// Calls `act(vertex, neighbour)` for the vertices of a kind and those of another kind (inside the water, if they
-    /// are not unknown) in the same cell, cell by cell.
-    template <typename Function>
-    void for_pairs(const Mixture<dim> &mixture,
-                   const PressureDofType kind,
-                   const PressureDofType kind_of_neighbour,
-                   const Function &act) const;
-
-    /// Integral of a vertex's linear function over the box, m^3.
-    double whole_volume(const unsigned int vertex) const;
-
-    /// Whether rigid ground leaves more than rounding of a vertex's surroundings: else no flow determines its pressure.
-    bool has_room(const unsigned int vertex) const;
-
-    /// Cells around a vertex.
-    unsigned int cells_in_box(const unsigned int vertex) const;
-
-    /// The same, each as far as it is open.
-    double open_cells_around(const unsigned int vertex) const;
-
-    /// Finds what rigid ground takes from the vertices' surroundings. Collective.
-    void find_closed();
-
-    void sum_filling(const Mixture<dim> &mixture);
-
-    /// The pressure of a vertex's points, Pa.
-    double pressure_of_points(const unsigned int vertex) const
-    {
-      return filling[vertex][weighted_pressure] / filling[vertex][water];
-    }
-
-    /// Sums what the soil of a mixture fills under the vertices' linear functions. Collective.
-    void sum_soil(const Mixture<dim> &mixture);
-    /// Finds suction_behind(). Collective.
-    void find_suction();
-
-    /// Calls `act(vertex)` for the owned vertices that any rank's water may touch, and for the ghosts that this rank's
-    /// water touches: for these more than once.
-    template <typename Function>
-    void for_all_wet_vertices(const Mixture<dim> &mixture, const Function &act) const
-    {
-      for (const unsigned int vertex : filling.active_nodes())
-        act(vertex);
-      for (const MixtureCell<dim> &cell : mixture.cells())
-        if (cell.water_volume > 0)
-          for (unsigned int v = 0; v < cell.n_vertices; ++v)
-            if (const unsigned int vertex = vertices.nodes(cell.cell)[v]; vertex >= vertices.n_owned())
-              act(vertex);
-    }
+      double volume; // see volume_under()
+      double cells;  // in the box around it, each as far as it is open
+      bool has_room; // more than rounding: else no flow determines its pressure
+    };
 
     /// Vertices beside the surface of one kind, and what they follow.
     struct Followers
@@ -242,6 +217,27 @@ namespace scree
       std::vector<unsigned int> vertices;                       // ghosts too, these more than once
       std::vector<std::pair<unsigned int, unsigned int>> pairs; // with their neighbours, cell by cell
     };
+
+    /// Whether dry soil behind the surface pulls at the water.
+    bool has_suction() const
+    {
+      return air_entry > 0.;
+    }
+
+    /// Finds what rigid ground leaves of the vertices' surroundings. Collective.
+    void find_open();
+
+    /// Kind of a wet vertex by its distance, beside what follows others, and its pressure, Pa.
+    double classify(const unsigned int vertex);
+
+    /// The dry vertices beside those of another kind (inside the water, if they are not unknown) get `kind`.
+    /// Collective.
+    Followers find_followers(const Mixture<dim> &mixture, const PressureDofType followed, const PressureDofType kind);
+
+    void sum_filling(const Mixture<dim> &mixture);
+
+    /// Finds suction_behind(). Collective.
+    void find_suction();
 
     /// What a vertex beside the surface takes of the sum of its neighbours.
     double share(const unsigned int vertex) const
@@ -258,14 +254,14 @@ namespace scree
     NodeValues<dim, 2> neighbours;  // Neighbours
     const double air_entry;         // Pa
     std::vector<PressureDofType> kinds;
-    std::vector<double> distances; // cells; positive in the water
+    std::vector<double> distances;              // cells; positive in the water
+    std::vector<Open> open;                     // by vertex, ghosts too
+    std::vector<unsigned int> unknown_vertices; // see unknowns()
+    // Owned vertices that any rank's water may touch, and ghosts that this rank's water touches: these more than once.
+    std::vector<unsigned int> touched;
     std::array<Followers, 2> followers;
     VertexVector scratch; // 0 between calls
     VertexVector suction; // see suction_behind()
-
-    // Without ground they are empty.
-    std::vector<double> closed_volume; // under a vertex's linear function, m^3
-    std::vector<double> closed_cells;  // around a vertex, each as far as it is closed
   };
 } // namespace scree
 

@@ -3,8 +3,8 @@
 #define scree_pressure_ground_rows_h
 
 #include <scree/mesh/cut_cells.h>
-#include <scree/pressure/pressure_pair.h>
-#include <scree/transfer/water_transfer.h>
+#include <scree/mesh/node_rows.h>
+#include <scree/mixture/wet_nodes.h>
 
 #include <vector>
 
@@ -35,15 +35,6 @@ namespace scree
     }
   };
 
-  /// What of the motion at a row the ground constrains.
-  enum class HeldMotion : unsigned int
-  {
-    none,   ///< nothing, as it lifts off
-    across, ///< that into it
-    along,  ///< that along it, as far as the compliance of its friction lets it: the one into it has just lifted off
-    all     ///< both
-  };
-
   /// Soil or water at a facet of rigid ground: its mean velocity there must not go into the ground, and by Coulomb's
   /// law the ground resists its sliding.
   template <int dim>
@@ -57,29 +48,17 @@ namespace scree
     dealii::Tensor<1, dim> normal;   ///< unit, out of the open
     dealii::Tensor<1, dim> flow;     ///< m^dim/s: area times the velocity beside what is admissible, without tractions
     dealii::Tensor<1, dim> traction; ///< on the ground, Pa; holds the initial guess before the solve
-    HeldMotion held   = HeldMotion::none; ///< in the current solve
-    double compliance = 0.;               ///< flow along the ground over the traction along it, m^dim/(Pa s); 0: sticks
+    bool holds_across = false;       ///< in the current solve: the motion into the ground
+    bool holds_along  = false;       ///< that along it, as far as the compliance of its friction lets it
+    double compliance = 0.;          ///< flow along the ground over the traction along it, m^dim/(Pa s); 0: sticks
     double diagonal   = 0.; ///< of dt N A^-1 N^T, as if no walls held the nodes, m^dim/(Pa s); see set_mobilities()
-
-    /// Whether the ground holds the motion into it.
-    bool holds_across() const
-    {
-      return held == HeldMotion::across || held == HeldMotion::all;
-    }
-
-    /// Whether it holds the motion along it.
-    bool holds_along() const
-    {
-      return held == HeldMotion::along || held == HeldMotion::all;
-    }
 
     /// The part of a vector that the ground holds.
     dealii::Tensor<1, dim> held_part(const dealii::Tensor<1, dim> &vector) const
     {
-      return held == HeldMotion::none     ? dealii::Tensor<1, dim>()
-             : held == HeldMotion::across ? (vector * normal) * normal
-             : held == HeldMotion::along  ? along(vector)
-                                          : vector;
+      if (holds_across)
+        return holds_along ? vector : (vector * normal) * normal;
+      return holds_along ? along(vector) : dealii::Tensor<1, dim>();
     }
 
     /// The traction, Pa, that alone would take a flow from what is held, m^dim/s.
@@ -118,12 +97,12 @@ namespace scree
     /// light, it hardly counts. Finds the flow of the velocity alone.
     /// @param least_mass at which a node counts wholly, kg
     /// @param phase of the row; ghosts hold values
-    /// @param pores of a mixture; null: soil without water
+    /// @param nodes of a mixture; null: soil without water
     void add(const GroundRow<dim> &row,
              const CutFacet<dim> &facet,
              const double least_mass,
              const NodalField<dim> &phase,
-             const PoreField<dim> *pores = nullptr);
+             const WetNodes<dim> *nodes = nullptr);
 
     /// Adds the forces of the ground under tractions, Pa, to those on u and q, N: this rank's part of -N^T t.
     void add_forces(const Vectors &tractions, FlowField<dim> &forces) const;
@@ -177,6 +156,41 @@ namespace scree
     std::vector<unsigned int> corners;
     std::vector<unsigned int> number_of_node; // by node and phase
     std::vector<NodeRow> motions;             // by number, m/s
+  };
+
+  /// Pressures by owned unknown, Pa, and tractions by row of the ground, Pa; or flows, m^dim/s.
+  template <int dim>
+  struct PressuresAndTractions
+  {
+    std::vector<double> pressures;               ///< by owned unknown
+    typename GroundRows<dim>::Vectors tractions; ///< by row
+
+    /// All is 0.
+    void clear(const std::size_t n_pressures, const std::size_t n_rows)
+    {
+      pressures.assign(n_pressures, 0.);
+      tractions.assign(n_rows, dealii::Tensor<1, dim>());
+    }
+
+    /// *this = factor * *this + other_factor * other.
+    void sadd(const double factor, const double other_factor, const PressuresAndTractions &other)
+    {
+      for (unsigned int i = 0; i < pressures.size(); ++i)
+        pressures[i] = factor * pressures[i] + other_factor * other.pressures[i];
+      for (unsigned int k = 0; k < tractions.size(); ++k)
+        tractions[k] = factor * tractions[k] + other_factor * other.tractions[k];
+    }
+
+    /// This rank's part of the scalar product.
+    double operator*(const PressuresAndTractions &other) const
+    {
+      double sum = 0.;
+      for (unsigned int i = 0; i < pressures.size(); ++i)
+        sum += pressures[i] * other.pressures[i];
+      for (unsigned int k = 0; k < tractions.size(); ++k)
+        sum += tractions[k] * other.tractions[k];
+      return sum;
+    }
   };
 } // namespace scree
 

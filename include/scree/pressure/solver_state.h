@@ -44,7 +44,7 @@ namespace scree
     return result;
   }
 
-  /// What a preconditioner that is kept over steps was made from (PressureOperator), and how it has done since.
+  /// What a preconditioner that is kept over steps was made from (PressurePreconditioner), and how it has done since.
   struct PreconditionerState
   {
     NumbersByPlace mobilities;               ///< of the cells that held water, m^3/(Pa s)

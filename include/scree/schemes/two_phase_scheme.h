@@ -12,11 +12,8 @@ namespace scree
   /// Soil and water: explicit soil, implicit drag, and a pressure whose force is the transpose of the divergence
   /// (doc/theory/two_phases.md; two sets of points: @source{xie2024}).
   ///
-  /// 1. Predictor with the old pressure: A v* = m v + dt (f - B^T p^n), where A holds masses and drag
-  ///    (TwoPhaseMomentum). Then the viscosity: (A + dt K) v** = A v* (ViscousStep).
-  /// 2. Pressure and tractions t of the ground (CutCellContact) together: B u = c, N v <= c, where
-  /// 3. v = v** - dt A^-1 (B^T dp + N^T t) is the corrector, with u = v_s + n (v_w - v_s) (PorePressure).
-  /// 4. Points of free water leave where they crowd (ParticleShifting).
+  /// The stages of solve() are numbered as there, and as in doc/theory/wet_step.py. Where water keeps its place, soil
+  /// carries its weight, and the pressure is that of its points.
   ///
   /// What a case does not have, viscosity, ground or shifting, is an empty object, whose calls return at once.
   template <int dim>
@@ -31,19 +28,19 @@ namespace scree
     {
       soil.reinit();
       mixture.reinit();
-      pores.reinit();
-      water_field.reinit();
-      excess.reinit();
+      nodes.reinit();
+      surface.reinit();
+      operators.reinit();
       pressure.reinit();
       wall_gaps.reinit();
-      momentum.reinit();
+      momentum.reinit(grid.n_owned_nodes());
       viscosity.reinit();
       contact.reinit();
       shifting.reinit();
     }
     void follow_ground() override
     {
-      pressure.follow_ground();
+      surface.follow_ground();
       contact.follow();
     }
     void read_points() override
@@ -52,7 +49,7 @@ namespace scree
       activate_nodes();
       pressure.locate(mixture);
       soil.field.clear();
-      water_field.clear(); // sums, not velocities
+      nodes.water.clear(); // sums, not velocities
     }
     void to_grid(const double time) override;
     void solve(const double time_step, StepReport<dim> &report) override;
@@ -73,7 +70,7 @@ namespace scree
     NodalForces nodal_forces(const double time_step) const override
     {
       NodalForces sums;
-      add_nodal_forces(soil.field, &water_field, forces, time_step, sums);
+      add_nodal_forces(soil.field, &nodes.water, forces, time_step, sums);
       return sums;
     }
     SolverState<dim> solver_state() const override
@@ -103,66 +100,34 @@ namespace scree
     void activate_nodes()
     {
       for (const MixtureCell<dim> &cell : mixture.cells())
-        {
-          soil.field.activate_cell(cell.cell);
-          water_field.activate_cell(cell.cell);
-          excess.activate_cell(cell.cell);
-          pores.activate_cell(cell.cell);
-        }
+        nodes.activate_cell(cell.cell);
     }
 
-    /// What the nodes' sums over ranks say of the discharge, and the force of the old pressure. Collective.
-    void find_pair(const double time_step);
-
-    /// What the predictor starts from at the nodes: sums of all ranks, forces of loads and of the old pressure, walls
-    /// that act. Collective.
+    /// Sums of all ranks at the nodes, forces of loads among them, and walls that act. Collective.
     void sum_at_nodes(const double time_step)
     {
       const TimedPart part(timer, TimerSection::nodes);
       activate_nodes();
-      pressure.locate(mixture);
       soil.add_loads(time_step); // Pressure is implicit, so the load is that of the step's end.
-      soil.field.add_contributions();
-      water_field.add_contributions();
-      pores.add_contributions();
-      soil.field.scale_inertia(forces.mass_scaling());
-      water_field.scale_inertia(forces.mass_scaling());
+      nodes.add_contributions(forces.mass_scaling());
       wall_gaps.release(forces, time_step);
-      find_pair(time_step);
     }
+
+    /// Free surface, p^n and B; what the sums say of the discharge, and the force of p^n. Collective.
+    void find_pair(const double time_step);
 
     /// The soil takes mass, weight and pressure of the water at its nodes: what carries both where water keeps its
     /// place.
     void load_soil_with_water();
 
-    /// Pressure and tractions of the ground, and the corrector. Collective.
-    void find_end_of_step(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget);
-
-    /// The solve where water keeps its place: the pressure is that of its points.
-    void solve_with_held_water(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget)
-    {
-      load_soil_with_water();
-      momentum.predict(nodes, time_step, transfer.kept(time_step), budget);
-      contact.begin_step(mixture, pressure.free_surface());
-      find_end_of_step(nodes, time_step, budget);
-    }
+    /// Change of the pressure, and tractions of the ground. Collective.
+    void find_pressure(const double time_step, Budget<dim> &budget);
 
     /// The water's part of to_points().
     void move_water(const double time_step, StepReport<dim> &report);
 
-    /// Books what is known at the end of a step only. Collective.
-    void end_step(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &budget)
-    {
-      {
-        const TimedPart part(timer, TimerSection::nodes);
-        viscosity.count_dissipation(nodes, budget);
-        pressure.accept_change();
-        // The predictor has counted the load among the forces.
-        budget.load_impulse += soil.load_impulse(time_step);
-        budget.pressure_impulse -= soil.load_impulse(time_step);
-      }
-      contact.count_pressure(mixture, pressure, time_step, budget);
-    }
+    /// Takes the pressure, and books what is known at the end of a step only. Collective.
+    void end_step(const double time_step, Budget<dim> &budget);
 
     /// Takes points back that have left through the box or the ground.
     void project_to_boundary(const double time_step, StepReport<dim> &report);
@@ -178,10 +143,10 @@ namespace scree
     SolidPhase<dim> soil;
     WaterTransfer<dim> transfer;
     Mixture<dim> mixture;
-    PoreField<dim> pores;
-    NodalField<dim> water_field;
-    NodalField<dim> excess; // see WaterTransfer::to_grid()
+    WetNodes<dim> nodes;
     GroundGaps<dim> ground_gaps;
+    FreeSurface<dim> surface;
+    PressureOperators<dim> operators;
     PorePressure<dim> pressure;
     WallGaps<dim> wall_gaps;
     const double spacing; // of the points at the start, where they are widest apart, m

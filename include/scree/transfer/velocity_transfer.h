@@ -2,11 +2,10 @@
 #ifndef scree_transfer_velocity_transfer_h
 #define scree_transfer_velocity_transfer_h
 
-#include <scree/mesh/node_values.h>
 #include <scree/tensor/matrix.h>
 #include <scree/transfer/cell_sums.h>
 #include <scree/transfer/transfer_parameters.h>
-#include <scree/transfer/water_transfer.h>
+#include <scree/mixture/wet_nodes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -220,11 +219,11 @@ namespace scree
   {
   public:
     /// Whether water of any of the nodes has soil about it; else points take v_w.
-    static bool differs(const unsigned int *nodes, const PoreField<dim> &pores)
+    static bool differs(const unsigned int *ids, const WetNodes<dim> &nodes)
     {
       bool any = false;
       for (unsigned int i = 0; i < n_nodes; ++i)
-        any |= pores[nodes[i]][PoreField<dim>::grain_fraction] > 0.;
+        any |= nodes.pores[ids[i]][Pores::grain_fraction] > 0.;
       return any;
     }
 
@@ -233,10 +232,10 @@ namespace scree
     /// @param width of the cell, m
     PoreVelocity(const unsigned int *ids,
                  const CellVelocity<dim, n> &water,
-                 const MixtureNodes<dim> &nodes,
+                 const WetNodes<dim> &nodes,
                  const double width)
         : grains(ids, nodes.soil, width)
-        , flux(water.weighted_difference(porosities(ids, nodes.pores), grains))
+        , flux(water.weighted_difference(porosities(ids, nodes), grains))
     {
     }
 
@@ -253,11 +252,11 @@ namespace scree
     static constexpr unsigned int n_nodes = dealii::Utilities::pow(n, dim);
 
     /// n_i
-    static std::array<double, n_nodes> porosities(const unsigned int *ids, const PoreField<dim> &pores)
+    static std::array<double, n_nodes> porosities(const unsigned int *ids, const WetNodes<dim> &nodes)
     {
       std::array<double, n_nodes> result;
       for (unsigned int i = 0; i < n_nodes; ++i)
-        result[i] = 1. - pores[ids[i]][PoreField<dim>::grain_fraction];
+        result[i] = nodes.porosity(ids[i]);
       return result;
     }
 

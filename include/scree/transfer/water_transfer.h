@@ -4,8 +4,8 @@
 
 #include <scree/bodies/phases.h>
 #include <scree/mesh/node_rows.h>
-#include <scree/mesh/node_values.h>
 #include <scree/mixture/mixture.h>
+#include <scree/mixture/wet_nodes.h>
 #include <scree/transfer/transfer.h>
 
 #include <cstring>
@@ -22,53 +22,6 @@ namespace scree
     const NodalField<dim> &field;            ///< the water's, solved: its mass and velocity are read
     /// Asked for the cells of this rank that hold points; 0 where there is no pressure.
     PressureOfCell<dim> pressure_of_cell;
-  };
-
-  /// Pores at the nodes of the velocity: sums at first, then what the step makes of them.
-  template <int dim>
-  class PoreField : public NodeValues<dim, 6>
-  {
-  public:
-    static constexpr unsigned int drag          = 0; ///< of slow flow over q, N s/m; then C + e of the step, kg
-    static constexpr unsigned int inertial_drag = 1; ///< the same over q^2, N s^2/m^2; then over the slip, kg s/m
-
-    /// sum V_w (1/n_p - 1) phi_i, n_p the porosity about a point of water, m^3
-    static constexpr unsigned int local_solid_volume = 2;
-    /// Then: 1 - n_i with the harmonic mean n_i of n_p, -
-    static constexpr unsigned int grain_fraction = 2;
-
-    static constexpr unsigned int flux_inertia = 3; ///< sum V_w (1/n_p^2 - 1) phi_i, m^3
-    /// Then e: inertia that water has beside its mass, as it passes through pores of different width; of that of the
-    /// slip between soil and water, sum m_p phi_i (n_i/n_p)^2 - m_i, kg
-    static constexpr unsigned int coupling = 3;
-
-    /// What the soil counts as where the pressure moves it, over its mass: 1, or more where it is light, -
-    static constexpr unsigned int pressed_soil = 4;
-
-    /// The same of the water.
-    static constexpr unsigned int pressed_water = 5;
-
-    /// Makes room on the nodes of the grid, which must live on.
-    explicit PoreField(const BackgroundGrid<dim> &grid)
-        : NodeValues<dim, 6>(grid.numbering())
-    {
-    }
-  };
-
-  /// Soil, water and pores at the nodes of the velocity, of one step.
-  template <int dim>
-  struct MixtureNodes
-  {
-    NodalField<dim> &soil, ///< mass, momentum and force of the soil, then its velocity
-        &water;            ///< mass, momentum and force of the water, then its velocity
-    PoreField<dim> &pores; ///< drag, grains and pores
-
-    /// Ghosts get the velocities that their owners have. Collective.
-    void update_velocity_ghosts() const
-    {
-      soil.update_ghosts();
-      water.update_ghosts();
-    }
   };
 
   /// Carries what water and pores need from points to cells and nodes, and velocity and pressure back to the water.
@@ -91,14 +44,9 @@ namespace scree
     /// Adds pores, drag and grains of a body's points to the mixture.
     void soil_to_grid(const SoilBody<dim> &soil, Mixture<dim> &mixture) const;
 
-    /// Adds mass and momentum of the water's points to `field`, volume and pressure to the mixture, and
-    /// the pores about its points to `pores`. All soil has to be in.
-    /// @param excess gets m (1/n_p - 1) in place of the mass m, and its momentum: what the discharge has in pores
-    void to_grid(const WaterPhase<dim> &water,
-                 Mixture<dim> &mixture,
-                 NodalField<dim> &field,
-                 NodalField<dim> &excess,
-                 PoreField<dim> &pores) const;
+    /// Adds mass and momentum of the water's points and the pores about them to the nodes, volume and pressure to the
+    /// mixture. All soil has to be in.
+    void to_grid(const WaterPhase<dim> &water, Mixture<dim> &mixture, WetNodes<dim> &nodes) const;
 
     /// One pass over the water's points at the end of a step: velocity, pressure with its gradient, and place, if they
     /// are the water's own; else the volume of the pores. Points of the water's own take the velocity of PoreVelocity.
@@ -107,28 +55,14 @@ namespace scree
     /// @param nodes velocities of both phases; masses and pores as to_grid() has left them, summed over ranks
     /// @param mixture as to_grid() has left it
     double to_points(WaterPhase<dim> &water,
-                     const MixtureNodes<dim> &nodes,
+                     const WetNodes<dim> &nodes,
                      const Mixture<dim> &mixture,
                      const PressureOfCell<dim> &pressure,
                      const double time_step) const;
 
   private:
-    template <int n>
-    void add_soil(const SoilBody<dim> &soil, Mixture<dim> &mixture) const;
-
     template <int n, bool is_affine>
-    void add_water(const WaterPhase<dim> &water,
-                   Mixture<dim> &mixture,
-                   NodalField<dim> &field,
-                   NodalField<dim> &excess,
-                   PoreField<dim> &pores) const;
-
-    template <int n, TransferMethod method>
-    double move_water(WaterPhase<dim> &water,
-                      const MixtureNodes<dim> &nodes,
-                      const Mixture<dim> &mixture,
-                      const PressureOfCell<dim> &pressure,
-                      const double time_step) const;
+    void add_water(const WaterPhase<dim> &water, Mixture<dim> &mixture, WetNodes<dim> &nodes) const;
 
     /// Velocity, pressure and, if the points are the water's own, place of a cell's points.
     ///
@@ -137,7 +71,7 @@ namespace scree
     template <int n, TransferMethod method>
     void move_cell(const WaterPhase<dim> &water,
                    const CellPoints<dim> &cell,
-                   const MixtureNodes<dim> &nodes,
+                   const WetNodes<dim> &nodes,
                    const PorosityOfParts<dim> *porosity,
                    const Multilinear<dim> &pressure,
                    const double time_step,
@@ -183,16 +117,6 @@ namespace scree
     const NodeRow number_x = shape.value_x * number;
     for (unsigned int r = 0; r < n_rows; ++r)
       sums[r] += number_x * shape.rows.value[r];
-  }
-
-  /// Adds rows of nodes to a component of the pores.
-  template <int dim, int n, unsigned long n_rows>
-  void
-  scatter(const NodeRow (&sums)[n_rows], const unsigned int *nodes, const unsigned int component, PoreField<dim> &pores)
-  {
-    for (unsigned int r = 0; r < n_rows; ++r)
-      for (unsigned int i = 0; i < n; ++i)
-        pores[nodes[r * n + i]][component] += sums[r][i];
   }
 
   /// Adds volume and pressure of a point of water to the corners of its cell.

@@ -31,18 +31,9 @@ namespace scree
     /// A bound on the rates, 1/s, at which viscosity slows any motion of nodes with lumped masses, for this rank's
     /// points: the largest eigenvalue of M^-1 K is at most max 2 mu V/m sum |grad phi_i|^2/phi_i, by the inequality of
     /// Cauchy and Schwarz for |sum grad phi_i v_i|^2.
-    double largest_rate(const WaterPhase<dim> &water) const
-    {
-      return with_nodes_1d(grid, [&](auto n) { return bound<n>(water); });
-    }
+    double largest_rate(const WaterPhase<dim> &water) const;
 
   private:
-    template <int n>
-    void add_points(const WaterPhase<dim> &water, const NodalField<dim> &motion, NodalField<dim> &field) const;
-
-    template <int n>
-    double bound(const WaterPhase<dim> &water) const;
-
     const BackgroundGrid<dim> &grid;
     const double viscosity; // Pa s
   };
@@ -67,15 +58,15 @@ namespace scree
 
     /// Changes the predicted velocities of `nodes`, whose ghosts hold values before and after; nothing without
     /// viscosity. Collective; throws if the solve does not converge.
-    void apply(const MixtureNodes<dim> &nodes,
-               const TwoPhaseMomentum<dim> &step,
+    void apply(WetNodes<dim> &nodes,
+               TwoPhaseMomentum<dim> &step,
                CutCellContact<dim> &bed,
                const double time_step,
                Budget<dim> &balance);
 
     /// Adds the energy that the impulses of apply() have taken to the balance, when the velocities of the step are
     /// known.
-    void count_dissipation(const MixtureNodes<dim> &nodes, Budget<dim> &balance) const;
+    void count_dissipation(const WetNodes<dim> &nodes, Budget<dim> &balance) const;
 
   private:
     using Vector = std::vector<SoilAndWater<dim>>; // an entry an owned node on which points act
@@ -105,7 +96,7 @@ namespace scree
     {
       double sum = 0;
       for (unsigned int i = 0; i < a.size(); ++i)
-        sum += a[i].soil * b[i].soil + a[i].water * b[i].water;
+        sum += a[i] * b[i];
       return dealii::Utilities::MPI::sum(sum, grid.communicator());
     }
 

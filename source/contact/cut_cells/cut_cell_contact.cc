@@ -180,7 +180,7 @@ namespace scree
                                     const Phase phase,
                                     const bool is_unilateral,
                                     const double mass_of_cell,
-                                    const MixtureNodes<dim> &nodes,
+                                    const WetNodes<dim> &nodes,
                                     const double time_step)
   {
     const CutFacet<dim> &facet      = cut_cells->segments()[segment];
@@ -188,7 +188,7 @@ namespace scree
     row.is_unilateral               = is_unilateral;
     const NodalField<dim> &field    = phase == Phase::soil ? nodes.soil : nodes.water;
     const Tensor<1, dim> admissible = admissible_velocity(row, mean_velocity(facet, field), time_step);
-    rows.add(row, facet, closures::least_inertia * mass_of_cell, field, &nodes.pores);
+    rows.add(row, facet, closures::least_inertia * mass_of_cell, field, &nodes);
     rows.all.back().flow -= rows.weight_of_row(rows.all.size() - 1) * admissible;
   }
 
@@ -300,7 +300,7 @@ namespace scree
 
 
   template <int dim>
-  GroundRows<dim> *CutCellContact<dim>::find_rows(const MixtureNodes<dim> &nodes,
+  GroundRows<dim> *CutCellContact<dim>::find_rows(const WetNodes<dim> &nodes,
                                                   const Mixture<dim> &mixture,
                                                   const FreeSurface<dim> &surface,
                                                   const double time_step)
@@ -322,7 +322,7 @@ namespace scree
 
 
   template <int dim>
-  void CutCellContact<dim>::count_rows(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &balance)
+  void CutCellContact<dim>::count_rows(const WetNodes<dim> &nodes, const double time_step, Budget<dim> &balance)
   {
     if (ground == nullptr)
       return;
@@ -344,9 +344,7 @@ namespace scree
           {
             const double weight = rows.weight(k, i);
             // Where both phases are light, a part of the force is of no mass.
-            of_momentum +=
-                weight /
-                nodes.pores[of_cell[i]][of_soil ? PoreField<dim>::pressed_soil : PoreField<dim>::pressed_water];
+            of_momentum += weight / nodes.pores[of_cell[i]][of_soil ? Pores::pressed_soil : Pores::pressed_water];
             working += weight * velocity(of_cell[i]);
           }
         balance.pressure_impulse += // The corrector has booked it there.
@@ -359,7 +357,7 @@ namespace scree
         double of_momentum           = 0.;
         Tensor<1, dim> working;
         for (unsigned int i = 0; i < segment.shapes.size(); ++i)
-          if (nodes.water[of_cell[i]][NodalField<dim>::mass] > 0.)
+          if (nodes.has_water(of_cell[i]))
             {
               of_momentum += segment.shapes[i];
               working += segment.shapes[i] * mean_velocity_in_step(nodes.water)(of_cell[i]);

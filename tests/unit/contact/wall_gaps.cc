@@ -128,9 +128,9 @@ const UnitTest registered("wall_gaps", [] {
     flip.method = "FLIP"; // The points have no room for a gradient.
     const WaterTransfer<2> transfer(box.grid, flip, parameters);
     Mixture<2> mixture(box.grid, 2);
-    PoreField<2> pores(box.grid);
-    NodalField<2> field(box.grid), excess(box.grid);
-    transfer.to_grid(phase, mixture, field, excess, pores);
+    NodalField<2> soil(box.grid);
+    WetNodes<2> nodes(box.grid, soil);
+    transfer.to_grid(phase, mixture, nodes);
     box.add({ middle, middle }, down);
     box.release(dt, &mixture);
     expect(box.held().first, n_held, 0., region + ": held nodes");

@@ -72,11 +72,11 @@ public:
         const GroundRow<dim> &row = rows[k];
         const Tensor<1, dim> flow = program.residual().tractions[k];
         const double pressing     = program.solution.tractions[k] * row.normal;
-        require(row.holds_across() || std::abs(pressing) < 1e-10, name + " has a traction at a row that lifts off");
+        require(row.holds_across || std::abs(pressing) < 1e-10, name + " has a traction at a row that lifts off");
         require(!row.is_unilateral || pressing > -1e-10, name + " has a row that pulls");
-        require((row.holds_across() ? std::abs(flow * row.normal) : flow * row.normal) <= rounding * accepted,
+        require((row.holds_across ? std::abs(flow * row.normal) : flow * row.normal) <= rounding * accepted,
                 name + " leaves flow into a row");
-        require(!row.holds_along() || row.along(flow).norm() <= rounding * accepted, name + " leaves flow along a row");
+        require(!row.holds_along || row.along(flow).norm() <= rounding * accepted, name + " leaves flow along a row");
       }
   }
 
@@ -89,8 +89,9 @@ private:
         row.normal = random.point<dim>(-1., 1.);
         row.normal /= row.normal.norm();
         row.is_unilateral = random.uniform(0., 1.) < 0.7;
-        row.held          = random.uniform(0., 1.) < 0.5 ? HeldMotion::all : HeldMotion::across;
-        row.compliance    = row.held == HeldMotion::all ? std::max(0., random.uniform(-1., 1.)) : 0.;
+        row.holds_across  = true;
+        row.holds_along   = random.uniform(0., 1.) < 0.5;
+        row.compliance    = row.holds_along ? std::max(0., random.uniform(-1., 1.)) : 0.;
         rows.push_back(row);
       }
   }
@@ -150,7 +151,7 @@ private:
       {
         for (unsigned int c = 0; c < dim; ++c)
           target.tractions[k][c] = product[place(k, c)];
-        if (rows[k].holds_along())
+        if (rows[k].holds_along)
           target.tractions[k] += rows[k].compliance * rows[k].along(source.tractions[k]);
       }
   }

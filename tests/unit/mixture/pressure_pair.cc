@@ -5,7 +5,7 @@
 // gain: p.(B v) <= 0 after the correction by its solution.
 #include "../soil.h"
 
-#include <scree/pressure/schur_operator.h>
+#include <scree/pressure/operators.h>
 
 namespace test_pressure_pair
 {
@@ -13,8 +13,7 @@ template <int dim>
 class Scene : public WetScene<dim>
 {
 public:
-  using WetScene<dim>::grid, WetScene<dim>::mixture, WetScene<dim>::pores, WetScene<dim>::soil_field,
-      WetScene<dim>::water_field;
+  using WetScene<dim>::grid, WetScene<dim>::mixture, WetScene<dim>::nodes;
 
   explicit Scene(const std::string &basis)
       : WetScene<dim>(basis, "FLIP", "x < 0.33", 2)
@@ -26,44 +25,44 @@ public:
       for (FlowField<dim> *field : { &flow, &forces })
         field->activate_cell(cell.cell);
     surface.locate(mixture, pressure);
-    part.find(
-        mixture, [](const unsigned int, const unsigned int) { return false; }, time_step);
-    pair.find_moments([&](const unsigned int node) {
-      return water_field[node][NodalField<dim>::mass] / 1000. + pores[node][PoreField<dim>::local_solid_volume];
-    });
-    schur.begin_step();
+    operators.find_pair(
+        mixture,
+        [&](const unsigned int node) {
+          return nodes.water[node][NodalField<dim>::mass] / 1000. + nodes.pores[node][Pores::local_solid_volume];
+        },
+        [](const unsigned int, const unsigned int) { return false; },
+        time_step);
     for (MixtureCell<dim> &cell : mixture.cells())
       cell.mobility = 1e-3;
     // Two masses and their drag, soil alone, water alone, water that does not see the grains of the soil beside it.
     constexpr double with_soil_unseen = 0.7;
-    for (const unsigned int node : pores.active_nodes())
+    const auto kind_of                = [&](const unsigned int node) { return pattern(grid.node_position(node)); };
+    for (const unsigned int node : nodes.active())
       {
-        const double kind           = pattern(grid.node_position(node));
-        const double n              = kind < -0.5 ? 0. : kind > 0.5 ? 1. : 0.7 + 0.2 * kind;
-        const bool has_soil         = n < 1. || kind > with_soil_unseen;
-        const DragMobility mobility = drag_mobility(has_soil ? 1.5 + kind : 0.,
-                                                    n > 0. ? 1. + pattern(2. * grid.node_position(node)) / 2. : 0.,
-                                                    n < 1. ? 10. : 0.);
-        nodes.all.push_back({ node, n, mobility, PressedNode<dim>::free });
-        pores[node][PoreField<dim>::grain_fraction] = 1. - n;
-        soil_field[node][NodalField<dim>::mass]     = has_soil;
-        water_field[node][NodalField<dim>::mass]    = n > 0.;
+        const double kind                        = kind_of(node);
+        const double n                           = kind < -0.5 ? 0. : kind > 0.5 ? 1. : 0.7 + 0.2 * kind;
+        nodes.pores[node][Pores::grain_fraction] = 1. - n;
+        nodes.soil[node][NodalField<dim>::mass]  = n < 1. || kind > with_soil_unseen;
+        nodes.water[node][NodalField<dim>::mass] = n > 0.;
       }
-    for (unsigned int node = 0; node < grid.numbering().n_local(); ++node)
-      if (pattern(grid.node_position(node)) > with_soil_unseen)
-        nodes.without_grains.push_back(node);
-    for (NodalField<dim> *field : { &soil_field, &water_field })
-      field->update_ghosts();
-    pores.update_ghosts();
+    nodes.update_velocity_ghosts();
+    nodes.pores.update_ghosts();
     add_rows();
-    schur.assemble(mixture, nodes, &rows, time_step);
+    const auto pair_at = [&](const unsigned int node) {
+      DragBlock<dim> pair;
+      pair.soil_mass  = nodes.has_soil(node) ? 1.5 + kind_of(node) : 0.;
+      pair.water_mass = nodes.has_water(node) ? 1. + pattern(2. * grid.node_position(node)) / 2. : 0.;
+      pair.drag       = nodes.porosity(node) < 1. ? 10. : 0.;
+      return pair;
+    };
+    operators.assemble(mixture, nodes, pair_at, &rows, time_step);
   }
 
   /// Soil and water at a facet in each wet cell.
   void add_rows()
   {
-    facets.reserve(part.cells().size());
-    for (const auto &cell : part.cells())
+    facets.reserve(operators.filled_part().cells().size());
+    for (const auto &cell : operators.filled_part().cells())
       {
         const Point<dim> x = grid.node_position(grid.nodes(cell.cell)[0]);
         CutFacet<dim> facet;
@@ -79,7 +78,7 @@ public:
             row.phase  = phase;
             row.area   = 0.1 + 0.05 * pattern(x);
             row.normal = facet.normal;
-            rows.add(row, facets.back(), 0.5, phase == Phase::soil ? soil_field : water_field, &pores);
+            rows.add(row, facets.back(), 0.5, phase == Phase::soil ? nodes.soil : nodes.water, &nodes);
           }
       }
   }
@@ -120,7 +119,7 @@ public:
   const VertexVector &divergence()
   {
     surface.clear(sums);
-    pair.add_divergence(flow, sums);
+    operators.add_divergence(flow, sums);
     sums.compress(VectorOperation::add);
     return sums;
   }
@@ -137,12 +136,9 @@ public:
   const BoundaryConditions<dim> walls{ grid, WaterBoundaryParameters() };
   FreeSurface<dim> surface{ grid, corners, walls, nullptr };
   const GroundGaps<dim> gaps{ grid, nullptr, 0. };
-  FilledPart<dim> part{ grid, corners, surface, nullptr, gaps };
-  PressurePair<dim> pair{ grid, corners, part };
-  PressedNodes<dim> nodes;
   std::vector<CutFacet<dim>> facets;
   GroundRows<dim> rows{ grid };
-  SchurOperator<dim> schur{ grid, corners, surface, part, pair };
+  PressureOperators<dim> operators{ grid, corners, surface, nullptr, gaps };
   VertexVector pressure{ corners.partitioner() }, sums{ corners.partitioner() };
 
 private:
@@ -164,7 +160,7 @@ void test(const std::string &basis, const double volume, const std::vector<doubl
   Scene<dim> scene(basis);
   using Vectors = std::pair<Tensor<1, dim>, Tensor<1, dim>>;
   double filled = 0.;
-  for (const auto &cell : scene.part.cells())
+  for (const auto &cell : scene.operators.filled_part().cells())
     filled += cell.fraction * std::pow(scene.grid.cell_size(), dim);
   expect(sum_of_ranks(filled), volume, 1e-6, name + "filled part");
 
@@ -180,7 +176,7 @@ void test(const std::string &basis, const double volume, const std::vector<doubl
   });
   scene.set_pressure(0.3);
   const VertexVector &divergence = scene.divergence();
-  scene.pair.add_force(scene.pressure, scene.forces);
+  scene.operators.add_force(scene.pressure, scene.forces);
   scene.forces.add_contributions();
   double difference = 0., size = 0.;
   Tensor<1, dim> total;
@@ -211,77 +207,76 @@ void test(const std::string &basis, const double volume, const std::vector<doubl
   expect(scene.largest_divergence() / scale, 0., 1e-11, name + "divergence of a rigid body");
 
   // Symmetry: q.(S p) = p.(S q), and p.(S p) > 0; the same of pressures and tractions together.
-  VertexVector first(scene.corners.partitioner()), second(first), s_first(first), s_second(first);
-  for (const unsigned int vertex : scene.surface.wet_vertices())
-    if (scene.surface.kind(vertex) == PressureDofType::unknown)
-      {
-        first.local_element(vertex)  = pattern(scene.corners.position(vertex));
-        second.local_element(vertex) = pattern(3. * scene.corners.position(vertex));
-      }
-  typename GroundRows<dim>::Vectors none, flows_first, flows_second;
-  const auto product = [&](const VertexVector &a, const VertexVector &b, const auto &of_a, const auto &of_b) {
-    double result = 0.;
-    for (const unsigned int vertex : scene.surface.wet_vertices())
-      if (scene.surface.kind(vertex) == PressureDofType::unknown)
-        result += a.local_element(vertex) * b.local_element(vertex);
-    for (unsigned int k = 0; k < of_a.size(); ++k)
-      result += of_a[k] * of_b[k];
-    return sum_of_ranks(result);
-  };
+  PressuresAndTractions<dim> first, second, s_first, s_second;
+  for (const unsigned int vertex : scene.surface.unknowns())
+    {
+      first.pressures.push_back(pattern(scene.corners.position(vertex)));
+      second.pressures.push_back(pattern(3. * scene.corners.position(vertex)));
+    }
   for (const bool has_rows : { false, true })
     {
-      const auto t_first = has_rows ? scene.tractions(1.) : none, t_second = has_rows ? scene.tractions(3.) : none;
-      scene.schur.vmult(s_first, flows_first, first, t_first);
-      scene.schur.vmult(s_second, flows_second, second, t_second);
-      const double square = product(first, s_first, t_first, flows_first);
+      if (has_rows)
+        {
+          first.tractions  = scene.tractions(1.);
+          second.tractions = scene.tractions(3.);
+        }
+      scene.operators.vmult(s_first, first);
+      scene.operators.vmult(s_second, second);
+      const double square = sum_of_ranks(first * s_first);
       expect(square / energies[has_rows], 1., 1e-5, name + "p.(S p) over that before");
-      expect((product(second, s_first, t_second, flows_first) - product(first, s_second, t_first, flows_second)) /
-                 square,
-             0.,
-             1e-11,
-             name + "q.(S p) - p.(S q)");
+      expect(sum_of_ranks(second * s_first - first * s_second) / square, 0., 1e-11, name + "q.(S p) - p.(S q)");
     }
 
   // A traction of 1 along an axis at one row of soil, of one rank after the other: its own flow is the diagonal.
-  scene.rows.set_mobilities(scene.schur.mobilities());
+  scene.rows.set_mobilities(scene.operators.mobilities());
   const unsigned int n_rows = scene.rows.all.size(), most_rows = Utilities::MPI::max(n_rows, MPI_COMM_WORLD);
-  first = 0.;
   for (unsigned int rank = 0; rank < Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD); ++rank)
     for (unsigned int k = 0; k < std::min(most_rows, 40u); k += 2)
       {
-        typename GroundRows<dim>::Vectors tractions(n_rows);
+        first.clear(first.pressures.size(), n_rows);
         const bool is_own = rank == Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) && k < n_rows;
         if (is_own)
-          tractions[k][0] = 1.;
-        scene.schur.vmult(s_first, flows_first, first, tractions);
+          first.tractions[k][0] = 1.;
+        scene.operators.vmult(s_first, first);
         if (is_own)
-          expect(flows_first[k][0] / scene.rows.all[k].diagonal, 1., 1e-11, name + "flow of a row over the diagonal");
+          expect(s_first.tractions[k][0] / scene.rows.all[k].diagonal,
+                 1.,
+                 1e-11,
+                 name + "flow of a row over the diagonal");
       }
 
   // The preconditioner of the rows, with friction at some: symmetric, and the inverse up to 1 (Gauss-Seidel).
   for (unsigned int k = 0; k < n_rows; ++k)
     {
       GroundRow<dim> &row = scene.rows.all[k];
-      row.held            = HeldMotion((k + 1) % 3);
-      row.compliance      = row.held == HeldMotion::all ? 0.5 * row.diagonal : 0.;
+      row.holds_across    = k % 3 != 2;
+      row.holds_along     = k % 3 == 1;
+      row.compliance      = row.holds_along ? 0.5 * row.diagonal : 0.;
     }
-  const auto flows_a = scene.tractions(1.), flows_b = scene.tractions(3.);
-  typename GroundRows<dim>::Vectors of_a, of_b;
-  scene.rows.precondition(flows_a, of_a);
-  scene.rows.precondition(flows_b, of_b);
-  first             = 0.;
-  const double used = product(first, first, of_a, flows_a);
+  PressuresAndTractions<dim> flows_a, flows_b, of_a, of_b;
+  flows_a.tractions = scene.tractions(1.);
+  flows_b.tractions = scene.tractions(3.);
+  scene.rows.precondition(flows_a.tractions, of_a.tractions);
+  scene.rows.precondition(flows_b.tractions, of_b.tractions);
+  const double used = sum_of_ranks(of_a * flows_a);
   require(used > 0., name + "The preconditioner of the rows is not positive.");
-  expect((product(first, first, of_a, flows_b) - product(first, first, of_b, flows_a)) / used,
+  expect(sum_of_ranks(of_a * flows_b - of_b * flows_a) / used,
          0.,
          1e-12,
          name + "symmetry of the preconditioner of the rows");
   for (unsigned int k = 0; k < n_rows; ++k)
-    expect((of_a[k] - scene.rows.all[k].held_part(of_a[k])).norm(), 0., 1e-12 * of_a[k].norm(), name + "free traction");
-  scene.schur.vmult(s_first, flows_first, first, of_a);
+    {
+      const Tensor<1, dim> &traction = of_a.tractions[k];
+      expect((traction - scene.rows.all[k].held_part(traction)).norm(),
+             0.,
+             1e-12 * traction.norm(),
+             name + "free traction");
+    }
+  of_a.pressures.assign(first.pressures.size(), 0.);
+  scene.operators.vmult(s_first, of_a);
   for (unsigned int k = 0; k < n_rows; ++k)
-    flows_first[k] += scene.rows.all[k].compliance * scene.rows.all[k].along(of_a[k]);
-  const double quotient = product(first, first, of_a, flows_first) / used;
+    s_first.tractions[k] += scene.rows.all[k].compliance * scene.rows.all[k].along(of_a.tractions[k]);
+  const double quotient = sum_of_ranks(of_a * s_first) / used;
   require(quotient > 0.1 && quotient < 1. + 1e-12,
           name + "Quotient of the preconditioned rows: " + std::to_string(quotient));
 }

@@ -18,7 +18,7 @@ class Scene : public WetScene<dim>
 {
 public:
   using Field = NodalField<dim>;
-  using WetScene<dim>::grid, WetScene<dim>::pores, WetScene<dim>::soil_field, WetScene<dim>::water_field;
+  using WetScene<dim>::grid, WetScene<dim>::nodes;
 
   Scene(const std::string &basis, const std::string &method, const std::string &soil_region)
       : WetScene<dim>(basis, method, soil_region, dim == 2 ? 4 : 2)
@@ -29,35 +29,34 @@ public:
   void gather()
   {
     WetScene<dim>::gather();
-    for (const unsigned int node : pores.active_nodes())
-      if (const double solid = 1000. * pores[node][PoreField<dim>::local_solid_volume]; solid > 0.)
-        pores[node][PoreField<dim>::grain_fraction] = solid / (water_field[node][Field::mass] + solid);
-    for (const unsigned int node : water_field.active_nodes())
-      if (const double mass = water_field[node][Field::mass]; mass > 0.)
-        set_vector<dim>(water_field[node], Field::velocity, vector_of<dim>(water_field[node], Field::velocity) / mass);
+    for (const unsigned int node : nodes.active())
+      if (const double solid = 1000. * nodes.pores[node][Pores::local_solid_volume]; solid > 0.)
+        nodes.pores[node][Pores::grain_fraction] = solid / (nodes.water[node][Field::mass] + solid);
+    for (const unsigned int node : nodes.active())
+      if (const double mass = nodes.water[node][Field::mass]; mass > 0.)
+        set_vector<dim>(nodes.water[node], Field::velocity, nodes.velocities(node).water / mass);
   }
 
   /// Random velocities of soil and water at the nodes.
   void move_nodes()
   {
-    for (NodalField<dim> *field : { &soil_field, &water_field })
+    for (NodalField<dim> *field : { &nodes.soil, &nodes.water })
       for (const unsigned int node : field->active_nodes())
         for (unsigned int c = 0; c < dim; ++c)
           {
             const Point<dim> place =
-                grid.node_position(node) + (field == &soil_field ? 1. : 3.) * Point<dim>::unit_vector(c);
+                grid.node_position(node) + (field == &nodes.soil ? 1. : 3.) * Point<dim>::unit_vector(c);
             (*field)[node][Field::velocity + c] = (*field)[node][Field::velocity_change + c] = pattern(place);
           }
   }
 
   void scatter()
   {
-    soil_field.update_ghosts();
-    water_field.update_ghosts();
-    pores.update_ghosts();
+    nodes.update_velocity_ghosts();
+    nodes.pores.update_ghosts();
     this->transfer->to_points(
         this->water,
-        { soil_field, water_field, pores },
+        nodes,
         this->mixture,
         [](const unsigned int) { return std::array<double, (1 << dim)>(); },
         time_step);
@@ -84,11 +83,8 @@ double momentum_error(const std::string &basis, const std::string &method)
     sum += momentum;
     size += momentum.norm();
   });
-  for (const unsigned int node : scene.water_field.active_nodes())
-    {
-      const double *values = scene.water_field[node];
-      sum -= values[NodalField<dim>::mass] * vector_of<dim>(values, NodalField<dim>::velocity);
-    }
+  for (const unsigned int node : scene.nodes.active())
+    sum -= scene.nodes.water[node][NodalField<dim>::mass] * scene.nodes.velocities(node).water;
   return sum_of_ranks(sum).norm() / sum_of_ranks(size);
 }
 

@@ -16,7 +16,7 @@ namespace scree
   ///
   /// The ground in a cell is a segment for each of its parts; a field's velocity there is its mean over the segment,
   /// beside the segment's own. Soil gets a row each (GroundRows), and so does water in cells without an unknown
-  /// pressure; elsewhere the pressure stops the water. PressureSolver finds the tractions together with the pressure,
+  /// pressure; elsewhere the pressure stops the water. PorePressure finds the tractions together with the pressure,
   /// TractionSolver those on soil without water. Soil that is not fixed may lift off, and rubs by Coulomb's law; water
   /// may leave where it has no pressure. It slips along the ground, but where that holds free water.
   template <int dim>
@@ -66,7 +66,7 @@ namespace scree
 
     /// Finds the rows of a step, with the tractions of the last one, from predicted velocities, whose ghosts hold
     /// values; null without ground.
-    GroundRows<dim> *find_rows(const MixtureNodes<dim> &nodes,
+    GroundRows<dim> *find_rows(const WetNodes<dim> &nodes,
                                const Mixture<dim> &mixture,
                                const FreeSurface<dim> &surface,
                                const double time_step);
@@ -84,7 +84,7 @@ namespace scree
     void count_rows(const TractionSolver<dim> &solver, const double time_step, Budget<dim> &balance);
 
     /// Books the tractions of the rows over a step, once the nodes have moved; ghosts of `nodes` hold values.
-    void count_rows(const MixtureNodes<dim> &nodes, const double time_step, Budget<dim> &balance);
+    void count_rows(const WetNodes<dim> &nodes, const double time_step, Budget<dim> &balance);
 
     /// Adds what obstacles bear of the water's pressure in a step of `time_step` s.
     void count_pressure(const Mixture<dim> &mixture,
@@ -140,7 +140,7 @@ namespace scree
                  const Phase phase,
                  const bool is_unilateral,
                  const double mass_of_cell,
-                 const MixtureNodes<dim> &nodes,
+                 const WetNodes<dim> &nodes,
                  const double time_step);
 
     /// A row of a segment, with the traction of the last solve.

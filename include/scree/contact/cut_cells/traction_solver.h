@@ -13,7 +13,7 @@ namespace scree
 {
   /// Finds the tractions of rigid ground on soil without water: the least of the kinetic energy under the constraints
   /// of GroundRows, by an accelerated projected gradient (@source{nesterov1983}) in which each row has a step of its
-  /// own. With water, PressureSolver finds them.
+  /// own. With water, PorePressure finds them.
   ///
   /// Nodes on walls of the box do not move into them. The result does not depend on the number of ranks but for
   /// rounding.
