@@ -306,7 +306,7 @@ namespace scree
   void TwoPhaseMomentum<dim>::count_pressure_work(const FlowField<dim> &of_flow, Budget<dim> &balance) const
   {
     nodes.for_occupied([&](const unsigned int node) {
-      SoilAndWater<dim> impulses = forces_of_flow<dim>(of_flow[node], nodes.porosity(node), nodes.has_soil(node));
+      SoilAndWater<dim> impulses = forces_of_flow<dim>(of_flow[node], nodes.porosity(node), false);
       impulses.soil /= nodes.pores[node][Pores::pressed_soil];
       impulses.water /= nodes.pores[node][Pores::pressed_water];
       balance.pressure_work += 0.5 * (impulses * (nodes.velocities_before(node) + nodes.velocities(node)));

@@ -342,8 +342,11 @@ namespace scree
                              time_step };
     if (BalanceStart<dim> &start = history.start; !start.is_known)
       {
+        start.least_averaging_work      = std::min(0., totals.material.averaging_work);
         const BalanceState<dim> balance = now.balance();
-        start = { true, balance.momentum() - now.totals.impulse(), balance.kept_energy(), false };
+        start.momentum                  = balance.momentum() - now.totals.impulse();
+        start.energy                    = balance.kept_energy();
+        start.is_known                  = true;
       }
     history.balance.obstacles.resize(now.totals.balance.obstacles.size());
     last_row = row_of(now);

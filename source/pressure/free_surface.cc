@@ -58,6 +58,7 @@ namespace scree
     kinds.assign(nodes.locally_owned_size() + nodes.n_ghost_indices(), PressureDofType::dry);
     distances.assign(kinds.size(), -1.);
     unknown_vertices.clear();
+    touched.clear();
     scratch.reinit(vertices.partitioner());
     if (has_suction())
       suction.reinit(vertices.partitioner());
@@ -214,9 +215,10 @@ namespace scree
   template <int dim>
   void FreeSurface<dim>::locate(const Mixture<dim> &mixture, VertexVector &pressure)
   {
-    for (const unsigned int vertex : filling.active_nodes())
+    for (const unsigned int vertex : touched) // of the last step, ghosts too
       {
         kinds[vertex]                  = PressureDofType::dry;
+        distances[vertex]              = -1.;
         pressure.local_element(vertex) = 0.;
       }
     sum_filling(mixture);

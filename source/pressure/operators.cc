@@ -60,7 +60,7 @@ namespace scree
 
   template <int dim>
   void PressureOperators<dim>::find_pair(const Mixture<dim> &mixture,
-                                         const AtNode &volume_of_water,
+                                         const AtNode &bulk_volume,
                                          const typename FilledPart<dim>::HoldsNode &holds,
                                          const double of_step)
   {
@@ -75,12 +75,12 @@ namespace scree
         passed_on.activate_cell(cell.cell);
         flow.activate_cell(cell.cell);
       }
-    find_moments(volume_of_water);
+    find_moments(bulk_volume);
   }
 
 
   template <int dim>
-  void PressureOperators<dim>::find_moments(const AtNode &volume_of_water)
+  void PressureOperators<dim>::find_moments(const AtNode &bulk_volume)
   {
     constexpr unsigned int n_passes = 8;   // of what cells do not take to the nodes
     constexpr double largest_defect = 0.5; // of Delta_i, over int phi_i
@@ -93,7 +93,7 @@ namespace scree
       {
         double *defect    = defects[node];
         const double most = largest_defect * defect[volume];
-        defect[surplus]   = std::clamp(volume_of_water(node) - defect[volume], -most, most);
+        defect[surplus]   = std::clamp(bulk_volume(node) - defect[volume], -most, most);
       }
     moments.assign(part.cells().size() * part.n_rows, NodeRow{});
     for (unsigned int pass = 0; pass < n_passes; ++pass)

@@ -58,6 +58,7 @@ namespace scree
     surface.locate(mixture, pressure);
     pressure.update_ghost_values();
     surface.extend(pressure);
+    pressure.update_ghost_values();
   }
 
 

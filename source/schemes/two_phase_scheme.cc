@@ -92,7 +92,7 @@ namespace scree
   void TwoPhaseScheme<dim>::find_pair(const double time_step)
   {
     const TimedPart part(timer, TimerSection::nodes);
-    const auto volume_of_water = [&](const unsigned int node) {
+    const auto bulk_volume = [&](const unsigned int node) {
       return nodes.water[node][NodalField<dim>::mass] / transfer.water_density() +
              nodes.pores[node][Pores::local_solid_volume];
     };
@@ -100,8 +100,8 @@ namespace scree
       return wall_gaps.is_closed_to_water(node, face);
     };
     pressure.locate(mixture);
-    operators.find_pair(mixture, volume_of_water, holds, time_step);
-    momentum.find_flux_inertia(time_step);
+    operators.find_pair(mixture, bulk_volume, holds, time_step);
+    momentum.find_flux_inertia(time_step); // n_i takes the place of the volume of grains, which find_pair() reads
     momentum.add_pressure_forces(pressure.impulses(time_step), operators, time_step);
   }
 
@@ -111,7 +111,7 @@ namespace scree
   {
     Budget<dim> &budget = report.balance;
     sum_at_nodes(time_step); // 1. masses, momenta and forces
-    find_pair(time_step);    // 2. d, T, p^n and B
+    find_pair(time_step);    // 2. d, T, p^n and B; of 1 n_i and C_i, of 3 the force of p^n
     if (water_is_held)
       load_soil_with_water();
     momentum.predict(time_step, transfer.kept(time_step), budget); // 3. A v* = m v + dt (f + m g - B^T p^n)

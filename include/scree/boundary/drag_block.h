@@ -35,7 +35,7 @@ namespace scree
   {
     double soil_mass = 0,                 ///< kg
         water_mass   = 0;                 ///< kg
-    double drag      = 0;                 ///< C = D dt, kg; 0 where a phase is absent
+    double drag      = 0;                 ///< C_i, kg: drag times step, and coupling; 0 where a phase is absent
     ConstrainedDirections<dim> held_soil, ///< held by walls
         held_water;                       ///< held by walls
 

@@ -62,7 +62,7 @@ namespace scree
 
   /// What a force on u and one on q beside it, in a node's numbers of a FlowField, give soil and water, N.
   /// @param porosity n_i: with 1 soil feels no pressure
-  /// @param has_soil whether forces of ground on such soil are among them
+  /// @param has_soil whether q holds forces of ground alone where n_i is 1: they act on the soil
   template <int dim>
   SoilAndWater<dim> forces_of_flow(const double *of_flow, const double porosity, const bool has_soil)
   {
@@ -98,8 +98,8 @@ namespace scree
       local_solid_volume,                  ///< sum V_w (1/n_p - 1) phi_i, m^3
       grain_fraction = local_solid_volume, ///< then: 1 - n_i, -
       flux_inertia,                        ///< sum V_w (1/n_p^2 - 1) phi_i, m^3
-      /// Then e: inertia that water has beside its mass, as it passes through pores of different width; of that of the
-      /// slip between soil and water, sum m_p phi_i (n_i/n_p)^2 - m_i, kg
+      /// Then e: inertia of the slip between soil and water beside the mass of water, as it passes through pores of
+      /// different width, sum m_p phi_i (n_i/n_p)^2 - m_w, kg
       coupling = flux_inertia,
       pressed_soil,    ///< what the soil counts as where the pressure moves it, over its mass: 1 or more, -
       pressed_water,   ///< the same of the water

@@ -38,8 +38,8 @@ namespace scree
     /// Finds the vertices all of whose cells have unknown pressures only: their volume under psi of such cells.
     void find_inside(const Mixture<dim> &mixture);
 
-    /// A flow that takes its part of the surplus out of each vertex, L chi = (1 - exp(-rate dt)) (F - 1) integral psi /
-    /// dt. Returns whether there is any surplus. Collective.
+    /// A flow that takes its part of the surplus out of each vertex, S chi = (1 - exp(-rate dt)) (F - 1) integral psi /
+    /// dt with the matrix S of the last solve. Returns whether there is any surplus. Collective.
     bool find_potential(const Mixture<dim> &mixture, const double time_step, Budget<dim> &balance);
 
     /// The way of the nodes, m, that this flow makes of water.

@@ -44,7 +44,7 @@ namespace scree
                              const double time_step);
 
     /// A v* = m v + dt f, with the old pressure in f. The nodes hold velocities and their change afterwards, the pores
-    /// drag times step. Collective.
+    /// C_i of the flow, kg. Collective.
     /// @param kept part of the points' velocity that remains beside that of the nodes, see kept_velocity()
     void predict(const double time_step, const double kept, Budget<dim> &balance);
 

@@ -86,10 +86,11 @@ namespace scree
   template <int dim>
   struct BalanceStart
   {
-    bool is_known = false;           ///< whether there has been a row
-    dealii::Tensor<1, dim> momentum; ///< with scaled masses, N s
-    double energy = 0;               ///< see BalanceState::kept_energy(), J
-    bool has_step = false;           ///< whether it has that of the first step
+    bool is_known = false;               ///< whether there has been a row
+    dealii::Tensor<1, dim> momentum;     ///< with scaled masses, N s
+    double energy               = 0;     ///< see BalanceState::kept_energy(), J
+    bool has_step               = false; ///< whether it has that of the first step
+    double least_averaging_work = 0;     ///< least sum since the start, see BalanceState::averaging_energy(), J
 
     /// Takes the length of the first step, s.
     /// @param fall mass times velocity times gravity, W
@@ -104,7 +105,7 @@ namespace scree
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &is_known &momentum &energy &has_step;
+      archive &is_known &momentum &energy &has_step &least_averaging_work;
     }
   };
 
@@ -137,11 +138,11 @@ namespace scree
     }
 
     /// What the average of the volume change has taken from the nodes and not given back, J: with p = K P epsilon the
-    /// force derives from K/2 epsilon P epsilon, and the points store K/2 |P epsilon|^2 of it. Below 0 it has made
-    /// energy, which counts as gain.
+    /// force derives from K/2 epsilon P epsilon, and the points store K/2 |P epsilon|^2 of it. The sum of its work is
+    /// at least 0 unless the average makes energy: this counts from the least sum, so that what it makes is a gain.
     double averaging_energy() const
     {
-      return std::max(0., totals.material.averaging_work);
+      return totals.material.averaging_work - start.least_averaging_work;
     }
 
     /// What the impulses since the start do not explain of the momentum, N s.

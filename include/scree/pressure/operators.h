@@ -33,7 +33,7 @@ namespace scree
   class PressureOperators
   {
   public:
-    /// A pair of soil and water at an owned node.
+    /// A at an owned node.
     using BlockAt = std::function<DragBlock<dim>(const unsigned int node)>;
     /// A number of an owned node.
     using AtNode = std::function<double(const unsigned int node)>;
@@ -132,7 +132,7 @@ namespace scree
     };
 
     /// Finds the volumes and the moments delta_ci.
-    void find_moments(const AtNode &volume_of_water);
+    void find_moments(const AtNode &bulk_volume);
     /// A pass of these: cells take their shares, and pass their means on to the nodes.
     void share_surplus();
 
@@ -144,9 +144,9 @@ namespace scree
                      const VertexVector *suction,
                      const typename GroundRows<dim>::Vectors *tractions);
 
-    /// Sets the flow from velocities, `velocity_of(node, numbers of the flow there)`, and ghosts.
+    /// Calls `write(node, numbers of the flow there)` at the reached nodes; ghosts follow. Collective.
     template <typename Function>
-    void find_flow(const Function &velocity_of);
+    void find_flow(const Function &write);
 
     /// Sets `full` to B of the flow: this rank's part.
     void find_divergence();

@@ -49,8 +49,8 @@ namespace scree
     ///
     /// Where the pressure would fall below that of cavitation, it is prescribed, and the mixture opens; a row whose
     /// traction would pull lifts off (BoundedProgram). A row that would be held by more than Coulomb's friction slides
-    /// under that: a compliance along the ground, from the tractions of a solve before. Each step finds the whole
-    /// pressure, so that what is left does not add up over steps.
+    /// under that: a compliance along the ground, from the tractions of a solve before. The divergence is
+    /// that of the whole velocity, so that what is left does not add up over steps.
     ///
     /// Collective; throws if the solver does not converge.
     /// @param mixture gets the mobilities of its cells
@@ -94,7 +94,7 @@ namespace scree
     /// Sets what of it this rank has, after reinit(). Collective.
     void load(const SolverState<dim> &state);
 
-    /// Pressure at the vertices of a cell with points, Pa, in deal.II's order.
+    /// Pressure, with suction, at the vertices of a cell with points, Pa, in deal.II's order.
     AtVertices pressure_of(const unsigned int cell) const;
 
   private:

@@ -19,8 +19,9 @@ namespace scree
   /// of the step. So elastic volume strain relaxes to what linear functions carry, as far as the soil shears. The
   /// volume of a point changes by dJ_p, and V/J_e stays that of the point.
   ///
-  /// sum V dJ is that of the own dJ, sum V r is 0, linear fields pass but for a ridge, the stored energy does not grow
-  /// (doc/theory/single_phase.md). Points without stress (separated grains) keep their own dJ and take no part.
+  /// sum V dJ is that of the own dJ but for terms of r, sum V r is 0, a linear ln J_e passes but for a ridge, and the
+  /// stored energy does not grow by relaxation (doc/theory/single_phase.md). Points without stress (separated grains)
+  /// keep their own dJ and take no part.
   template <int dim>
   class VolumeProjection
   {
@@ -57,8 +58,8 @@ namespace scree
     /// @param first of the cell's points in `motion`
     void apply(const CellPoints<dim> &cell, const unsigned int first, BlockMotion<dim> &motion);
 
-    /// Work of the stress on the points' own volume change less that on the one they got, since clear(), J: what the
-    /// nodes have given and the points have not stored. Sum over the points of this rank.
+    /// Work of the stress on the points' own volume change less that on its average without relaxation, since clear(),
+    /// J: what the nodes have given and the points have not stored. Sum over the points of this rank.
     double kept_work() const
     {
       return simd::sum_of_lanes(work);

@@ -45,7 +45,7 @@ struct Soil
       for (unsigned int c = 0; c < n_symmetric_components<dim>; ++c)
         {
           b[c]      = c < 3 ? std::exp(2. / 3. * ln_J_e) : 0.;
-          stress[c] = c < 3 && is_loaded(point.location) ? ln_J_e - 1. : 0.;
+          stress[c] = c < 3 && is_loaded(point.location) ? ln_J_e - 1e-6 : 0.;
         }
       const Tensor<2, dim> dF = increment(point.location);
       points.push_back(
