@@ -117,13 +117,13 @@ namespace scree
           activate(nodes[i]);
     }
 
-    /// Sums over ranks: owned nodes hold the whole afterwards.
+    /// Sums over ranks: owned nodes hold the whole afterwards. Collective.
     void add_contributions();
 
-    /// Takes the largest of the ranks' values, none of which is negative: owned nodes hold it afterwards.
+    /// Takes the largest of the ranks' values, none of which is negative: owned nodes hold it then. Collective.
     void take_largest();
 
-    /// Hands the owners' values to the ranks that see the node as a ghost.
+    /// Hands the owners' values to the ranks that see the node as a ghost. Collective.
     void update_ghosts();
 
     /// Drops what this rank holds of the ghosts, before it adds to them again.

@@ -45,7 +45,7 @@ namespace scree
       return time_step * load;
     }
 
-    /// Moves bodies and loads after the solve of a step, and updates stress and state.
+    /// Moves bodies and loads after the solve of a step, and updates stress and state. Collective.
     /// @param damping_time of the skeleton, s, see SkeletonDamping
     void to_points(const double time_step, const double damping_time, StepReport<dim> &report);
 

@@ -65,7 +65,7 @@ namespace scree
                const double time_step,
                Budget<dim> &balance);
 
-    /// Impulses of its change over the step and of the ground, as impulses().
+    /// Impulses of its change over the step and of the ground, as impulses(). Collective.
     const FlowField<dim> &impulses_of_change(const double time_step)
     {
       const TimedPart timed(timer, TimerSection::nodes);

@@ -93,7 +93,7 @@ namespace scree
     std::unique_ptr<WaterView<dim>> water_view() const override;
 
   private:
-    /// Sums of the water's points and of the soil's pores.
+    /// Sums of the water's points and of the soil's pores. Collective.
     void gather();
 
     /// Makes all fields active where any is.
@@ -123,7 +123,7 @@ namespace scree
     /// Change of the pressure, and tractions of the ground. Collective.
     void find_pressure(const double time_step, Budget<dim> &budget);
 
-    /// The water's part of to_points().
+    /// The water's part of to_points(). Collective.
     void move_water(const double time_step, StepReport<dim> &report);
 
     /// Takes the pressure, and books what is known at the end of a step only. Collective.
