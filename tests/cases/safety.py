@@ -64,12 +64,12 @@ def clay(case, expected, bound, **entries):
 
 def clay_cut():
     """A vertical cut falls at gamma H = 3.776 s_u."""
-    clay("cut", 3.776 * 32e3 / (2000 * 9.81 * 5), 0.03, **{"Mesh/Cell size": 0.25, "Safety/Tolerance": 0.02})
+    clay("cut", 3.776 * 32e3 / (2000 * 9.81 * 5), 0.03, **{"Mesh/Cell size": 0.25, "Safety/Tolerance": 0.01})
 
 
 def clay_graded_slope():
     """Strength that grows with depth: slip circles give 5.653 k/gamma at 45 degrees with a quarter of k H at the crest."""
-    clay("graded_slope", 5.653 * 4.5e3 / (2000 * 9.81), 0.05, **{"Mesh/Cell size": 0.5, "Safety/Tolerance": 0.02})
+    clay("graded_slope", 5.653 * 4.5e3 / (2000 * 9.81), 0.05, **{"Mesh/Cell size": 0.5, "Safety/Tolerance": 0.01})
 
 
 def range_and_stop():
