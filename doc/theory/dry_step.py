@@ -82,7 +82,7 @@ def f_bar(at, n_cells, h, V, strain, is_loaded, dF):
         return mean(values[:, None]) + kept_slope*(slope*away).sum(2)
     relaxed = 1 - np.exp(-100*mean(shear[:, None]))
     rest = (psi*relaxed*(strain[:, None] - linear(strain, 1))).sum(1)
-    averaged = np.where(is_loaded, (psi*linear(change, .25)).sum(1)*np.exp(-rest), change)
+    averaged = np.where(is_loaded, (psi*linear(change, .15)).sum(1)*np.exp(-rest), change)
     return np.cbrt(averaged/change), averaged
 
 

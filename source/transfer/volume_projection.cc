@@ -19,7 +19,7 @@ namespace scree
     /// Part of the slope that is kept of the volume change. Without it the change is too small at a surface, and soil
     /// that dilates flows too easily; all of it has patterns that the pore pressure does not see, and undrained soil
     /// gets stripes (doc/developer/development_log.md, "Projected F-bar").
-    constexpr double slope_of_change = 0.25;
+    constexpr double slope_of_change = 0.15;
 
     /// Squares of cells added to the variance of the points' places, which is 1/6 where points fill the cells: always,
     /// and where points fill none of what a vertex sees, so that a few points set no slope.

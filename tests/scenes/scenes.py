@@ -10,7 +10,6 @@ import os
 
 import numpy as np
 
-from scree.results import read_table
 from scree.variants import read_case, set_entries
 
 from scene_tools import NO_STRESS, ROOT, at, check, check_balances, check_fall, check_gain, largest_fall, main, mean_oscillation, run

@@ -135,7 +135,7 @@ void test_statistics()
                                                  { "Load work (J)", 7. } };
   for (const auto &[column, value] : others)
     expected[column] = value;
-  expect(expected.size(), dim == 2 ? 58 : 59, 0., "number of columns");
+  expect(expected.size(), dim == 2 ? 59 : 60, 0., "number of columns");
   for (const auto &[column, value] : last_row(statistics))
     expect(value, expected.at(column), 1e-9 * std::max(1., value), column);
 

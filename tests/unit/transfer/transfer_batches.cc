@@ -214,7 +214,7 @@ void project(const std::vector<CellPoints<dim>> &cells,
 
   double change = 0, rest = 0;
   for_each_vertex([&](auto &point, const unsigned int v, const double own, const double psi, auto x, auto &vertex) {
-    change = (v == 0 ? 0 : change) + psi * vertex.linear(vertex.change, x, 0.25);
+    change = (v == 0 ? 0 : change) + psi * vertex.linear(vertex.change, x, 0.15);
     rest   = (v == 0 ? 0 : rest) + psi * vertex.relaxed() * (own - vertex.linear(vertex.strain, x, 1));
     if (v + 1 < 1 << dim)
       return;
