@@ -201,9 +201,8 @@ namespace scree
   template class NodeValues<2, 5>; // NodalField in 2D
   template class NodeValues<3, 6>;
   template class NodeValues<3, 7>;
-  template class NodeValues<2, 8>; // normals to choose from, between bodies
-  template class NodeValues<2, 9>; // Pores
-  template class NodeValues<3, 10>;
+  template class NodeValues<2, 8>;  // Pores; normals to choose from, between bodies
+  template class NodeValues<3, 9>;  // Pores
   template class NodeValues<2, 16>; // linear functions about vertices, see VolumeProjection
   template class NodeValues<3, 11>;
   template class NodeValues<3, 20>;

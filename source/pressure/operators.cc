@@ -64,8 +64,7 @@ namespace scree
                                          const typename FilledPart<dim>::HoldsNode &holds,
                                          const double of_step)
   {
-    time_step = of_step;
-    part.find(mixture, holds, time_step);
+    part.find(mixture, holds, of_step);
     defects.clear();
     passed_on.clear();
     flow.clear();
@@ -96,8 +95,14 @@ namespace scree
         defect[surplus]   = std::clamp(bulk_volume(node) - defect[volume], -most, most);
       }
     moments.assign(part.cells().size() * part.n_rows, NodeRow{});
-    for (unsigned int pass = 0; pass < n_passes; ++pass)
-      share_surplus();
+    share_surplus();
+    for (unsigned int pass = 1; pass < n_passes; ++pass)
+      {
+        passed_on.add_contributions();
+        for (const unsigned int node : defects.active_nodes())
+          defects[node][surplus] = *passed_on[node];
+        share_surplus();
+      }
   }
 
 
@@ -109,7 +114,7 @@ namespace scree
     defects.update_ghosts();
     passed_on.clear_ghosts();
     for (const unsigned int node : passed_on.active_nodes())
-      passed_on[node][surplus] = 0.;
+      *passed_on[node] = 0.;
     NodeRow *of_cell = moments.data();
     for (const auto &cell : part.cells())
       {
@@ -130,13 +135,10 @@ namespace scree
             const NodeRow handed_on = mean * volumes[r];
             *of_cell += shares[r] - handed_on;
             for (unsigned int i = 0; i < n; ++i)
-              passed_on[nodes[r * n + i]][surplus] += handed_on[i];
+              *passed_on[nodes[r * n + i]] += handed_on[i];
           }
       }
-    passed_on.add_contributions();
     defects.clear_ghosts();
-    for (const unsigned int node : defects.active_nodes())
-      defects[node][surplus] = passed_on[node][surplus];
   }
 
 

@@ -124,7 +124,7 @@ namespace scree
         if (has_pores)
           {
             nodes.pores.activate_cell(cell.cell);
-            excess_sums.scatter_momentum(of_cell, Pores::excess_mass, nodes.pores);
+            excess_sums.scatter_momentum(of_cell, Pores::excess_momentum, nodes.pores);
             for (unsigned int r = 0; r < n_rows; ++r)
               for (unsigned int i = 0; i < n; ++i)
                 for (unsigned int c = 0; c < 4; ++c)

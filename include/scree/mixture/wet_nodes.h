@@ -103,8 +103,7 @@ namespace scree
       coupling = flux_inertia,
       pressed_soil,    ///< what the soil counts as where the pressure moves it, over its mass: 1 or more, -
       pressed_water,   ///< the same of the water
-      excess_mass,     ///< sum m (1/n_p - 1) phi_i, kg: what the discharge has in pores beside the mass of water
-      excess_momentum, ///< its momentum, kg m/s, a number an axis
+      excess_momentum, ///< sum m (1/n_p - 1) v phi_i, kg m/s: what the discharge has in pores; a number an axis
     };
   };
 
@@ -153,8 +152,8 @@ namespace scree
       soil.scale_inertia(mass_scaling);
       water.scale_inertia(mass_scaling);
       for (const unsigned int node : active())
-        for (unsigned int c = 0; mass_scaling != 1. && c < 1 + dim; ++c)
-          pores[node][Pores::excess_mass + c] *= mass_scaling;
+        for (unsigned int c = 0; mass_scaling != 1. && c < dim; ++c)
+          pores[node][Pores::excess_momentum + c] *= mass_scaling;
     }
 
     /// Ghosts get the velocities that their owners have. Collective.

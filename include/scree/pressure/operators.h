@@ -163,8 +163,9 @@ namespace scree
     const NodeNumbering<dim> &vertices;
     FreeSurface<dim> &surface;
     FilledPart<dim> part;
-    NodeValues<dim, 2> defects, passed_on; // Defect; of the second, only what is next
-    std::vector<NodeRow> moments;          // delta_ci: rows of the parts' cells
+    NodeValues<dim, 2> defects;   // Defect
+    NodeValues<dim, 1> passed_on; // what is surplus next, m^3
+    std::vector<NodeRow> moments; // delta_ci: rows of the parts' cells
 
     std::vector<Node> reached;                // owned nodes, by the parts and rows of any rank
     std::vector<DragBlock<dim>> held;         // see Node

@@ -247,12 +247,12 @@ namespace scree
         }
     }
 
-    /// Adds the sums of mass and momentum to other values, from a component on.
+    /// Adds the sums of momentum to other values, from a component on.
     template <typename Values>
     void scatter_momentum(const unsigned int *nodes, const unsigned int first, Values &values) const
     {
       for (unsigned int i = 0; i < n_nodes; ++i)
-        simd::add_doubles<1 + dim>(reinterpret_cast<const double *>(sums[i]), values[nodes[i]] + first);
+        simd::add_doubles<dim>(reinterpret_cast<const double *>(sums[i]) + 1, values[nodes[i]] + first);
     }
 
   private:
