@@ -386,8 +386,25 @@ namespace scree
                                    { "Water/Pressure", "Relative tolerance", Change::noted },
                                    { "Water/Pressure", "Maximum iterations", Change::noted } };
 
-    Change kind_of(const CaseEntry &entry, const CaseEntry *before, const CaseEntry *now)
+    /// What the first step of a stage reads anew; laws have subsections of their own in those of the bodies.
+    const std::vector<Rule> rules_of_stages{ { "Stage", "", Change::free },
+                                             { "Boundaries", "", Change::noted },
+                                             { "Boundaries/Water", "", Change::noted },
+                                             { "Bed", "Friction angle", Change::noted },
+                                             { "Settling", "", Change::free },
+                                             { "Safety", "", Change::noted } };
+
+    Change kind_of(const CaseEntry &entry, const CaseEntry *before, const CaseEntry *now, const bool begins_stage)
     {
+      const std::string name_of_law = entry.subsection.substr(entry.subsection.find('/') + 1);
+      const auto is_of_law          = [&](const RegisteredLaw &law) { return law.subsection == name_of_law; };
+      if (begins_stage)
+        for (const Rule &rule : rules_of_stages)
+          if (rule.subsection == entry.subsection && (rule.name.empty() || rule.name == entry.name))
+            return rule.change;
+      if (begins_stage && before && now && name_of_law != entry.subsection &&
+          std::any_of(registered_laws().begin(), registered_laws().end(), is_of_law))
+        return Change::noted;
       for (const Rule &rule : rules)
         if (rule.subsection == entry.subsection && (rule.name.empty() || rule.name == entry.name))
           return rule.change == Change::free ||
@@ -405,7 +422,8 @@ namespace scree
   } // namespace
 
 
-  std::vector<std::string> notes_on_changes(const Checkpoint &checkpoint, const CaseEntries &now)
+  std::vector<std::string>
+  notes_on_changes(const Checkpoint &checkpoint, const CaseEntries &now, const bool begins_stage)
   {
     struct Refused
     {
@@ -420,7 +438,7 @@ namespace scree
     const auto compare = [&](const CaseEntry &entry, const CaseEntry *was, const CaseEntry *is, const bool in_both) {
       if (was && is && same_value(*was, *is))
         return;
-      Change kind = kind_of(entry, was, is);
+      Change kind = kind_of(entry, was, is, begins_stage);
       if (kind == Change::noted_at_release)
         kind = checkpoint.step > 0 ? Change::refused : Change::noted;
       const bool are_files = was && is && !was->checksum.empty() && !is->checksum.empty();
@@ -454,8 +472,9 @@ namespace scree
       others += "; and " + std::to_string(refused.size() - most_names) + " more";
     const Refused &first = refused.front();
     throw EntryError(first.name + first.now + ": the run that wrote " + checkpoint.folder + " had " + first.before +
-                     ", and --resume cannot change that. Write it as it was, or run without --resume in another "
-                     "\"Output directory\"." +
+                     (begins_stage ? ", and a stage cannot change that. Write it as it was."
+                                   : ", and --resume cannot change that. Write it as it was, or run without --resume "
+                                     "in another \"Output directory\".") +
                      (first.name == entry_name("Safety", "Strength factor")
                           ? " A copy of the run folder with no checkpoint but step-0 goes on from the release."
                           : "") +

@@ -135,6 +135,26 @@ namespace scree
   }
 
 
+  void StageParameters::add_parameters(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Stage");
+    prm.add_parameter("Duration",
+                      duration,
+                      "s; from the end of its settling. 0: it ends when the soil has settled.",
+                      Patterns::Double(0));
+    prm.add_parameter("Remove",
+                      removed,
+                      "Expression of x, y (and z): soil and water where it holds vanish when the stage begins. Empty: "
+                      "nothing vanishes.");
+    prm.add_parameter("Add",
+                      adds,
+                      "Names of \"Bodies\" that are not there before, separated by commas; they appear when the stage "
+                      "begins, without stress and with dry pores.",
+                      Patterns::List(Patterns::Anything()));
+    prm.leave_subsection();
+  }
+
+
   Parameters::Parameters()
   {
     name_bodies();
@@ -147,13 +167,14 @@ namespace scree
   }
 
 
-  Parameters::Parameters(const std::string &file_name)
+  Parameters::Parameters(const std::string &file_name, const std::string &stage_name)
       : case_file(file_name)
       , file(file_name)
   {
     try
       {
         name_bodies();
+        take_stages(stage_name);
         for (const std::string &subsection : named_subsections(ObstacleParameters::prefix, "obstacle"))
           obstacles.emplace_back(subsection);
         for (const std::string &subsection : named_subsections(InflowParameters::prefix, "inflow"))
@@ -178,6 +199,7 @@ namespace scree
         std::istringstream text(file.statements_text());
         handler.parse_input(text, file_name);
         find_unread_laws(all);
+        end_time       = std::accumulate(durations.begin(), durations.end(), end_time);
         bed.map_origin = Point<2>(local_origin[0], local_origin[1]);
         for (ObstacleParameters &obstacle : obstacles)
           obstacle.surface.map_origin = bed.map_origin;
@@ -190,13 +212,15 @@ namespace scree
           }
         take_box_from_raster();
         take_unit_weights();
+        check_stages();
         check_case(*this);
         map_system = system_of_maps(*this);
         read_maps();
         if (has_water)
           water.check_wall_heads(grid.lower_corner, grid.upper_corner);
         water.find_fringe(size_of_gravity());
-        if (safety.strength_factor != 1. && settling.maximum_time == 0.) // or else it acts at the release
+        // In a case that settles it acts at the release.
+        if (safety.strength_factor != 1. && (settling.maximum_time == 0. || !stage.name.empty()))
           reduce_strength(safety.strength_factor);
         time_step.choose(has_water, transfer.courant_number(has_water), size_of_gravity(), grid.cell_size);
         if (damps_skeleton())
@@ -221,7 +245,7 @@ namespace scree
     // The names of the bodies are names of subsections: the declarations need them.
     static const std::set<std::string> taken{ "Mesh",     "Time step",   "Transfer", "Stabilisation", "Boundaries",
                                               "Settling", "Output",      "Water",    "Surface load",  "Probes",
-                                              "Bed",      "Base motion", "Safety" };
+                                              "Bed",      "Base motion", "Safety",   "Stage" };
     const std::string names = file.value("", "Bodies", "Soil");
     if (names == "none")
       return;
@@ -231,7 +255,8 @@ namespace scree
         const bool is_new   = seen.insert(name).second;
         const bool is_taken = taken.count(name) > 0 || name.rfind(ObstacleParameters::prefix, 0) == 0 ||
                               name.rfind(InflowParameters::prefix, 0) == 0 ||
-                              name.rfind(ContactParameters::prefix, 0) == 0;
+                              name.rfind(ContactParameters::prefix, 0) == 0 ||
+                              name.rfind(StageParameters::prefix, 0) == 0;
         require_entry(!name.empty() && is_new && !is_taken && name != "none",
                       { "", "Bodies", names },
                       (name.empty()     ? "a name is missing"
@@ -266,6 +291,8 @@ namespace scree
       return "An inflow has a name. Write subsection Inflow Torrent, or another name.";
     if (subsection + ' ' == ContactParameters::prefix)
       return "A contact has a name. Write subsection Contact Base, or another name.";
+    if (subsection == "Stage")
+      return "A stage has a name. Write subsection Stage Excavation, or another name.";
     if (!file.sets(subsection, "Region") || subsection.find('/') != std::string::npos)
       return "";
     return "It is no body either: entry \"Bodies\" lists " + file.value("", "Bodies", "Soil") + ". Add " +
@@ -318,6 +345,8 @@ namespace scree
     surface_load.add_parameters(prm);
     settling.add_parameters(prm);
     safety.add_parameters(prm);
+    if (!stage.name.empty() || case_file.empty())
+      stage.add_parameters(prm);
     output.add_parameters(prm);
     probes.add_parameters(prm);
   }
@@ -497,6 +526,63 @@ namespace scree
     handler.set(entry, value);
     for (unsigned int s = 0; s < subsections.size(); ++s)
       handler.leave_subsection();
+  }
+
+
+  void Parameters::take_stages(const std::string &last)
+  {
+    stages        = named_subsections(StageParameters::prefix, "stage");
+    bool is_later = last.empty();
+    for (const std::string &subsection : stages)
+      {
+        for (const std::string &name : Utilities::split_string_list(file.value(subsection, "Add", "")))
+          {
+            const auto body =
+                std::find_if(bodies.begin(), bodies.end(), [&](const BodyParameters &one) { return one.name == name; });
+            require_entry(body != bodies.end(),
+                          { subsection, "Add", name },
+                          "entry \"Bodies\" lists " + file.value("", "Bodies", "Soil") + ". Add the name there.");
+            require_entry(body->added_by.empty(),
+                          { subsection, "Add", name },
+                          "subsection " + body->added_by + " adds this body already. Remove one of the two.");
+            body->added_by = subsection;
+            body->is_there = !is_later;
+          }
+        if (!is_later)
+          durations.push_back(number_of(file.value(subsection, "Duration", "0")));
+        is_later = is_later || subsection == last;
+      }
+    // Those that are there come first: regions and bodies are numbered alike.
+    const auto turn = [&](const BodyParameters &body) {
+      return body.added_by.empty() ? stages.begin() - 1 : std::find(stages.begin(), stages.end(), body.added_by);
+    };
+    std::stable_sort(bodies.begin(), bodies.end(), [&](const BodyParameters &a, const BodyParameters &b) {
+      return turn(a) < turn(b);
+    });
+    stage.name = last.substr(std::min(last.size(), std::string(StageParameters::prefix).size()));
+    file.take_up_to(StageParameters::prefix, last);
+  }
+
+
+  void Parameters::check_stages() const
+  {
+    for (const BodyParameters &body : bodies)
+      require_entry(body.added_by.empty() || body.initial_state.type == "none",
+                    { body.name + "/Initial state", "Type", body.initial_state.type },
+                    "subsection " + body.added_by +
+                        " adds this body, and its weight gives its stress while the stage "
+                        "settles. Write none, and a \"Maximum time\" in subsection Settling.");
+    if (dimension == 2 && !stage.removed.empty())
+      parse_expression<2>(entry_name("Stage", "Remove"), stage.removed, 1);
+    else if (!stage.removed.empty())
+      parse_expression<3>(entry_name("Stage", "Remove"), stage.removed, 1);
+    require_entry(stage.adds.empty() || !grid.is_adaptive(),
+                  { "Stage", "Add", boost::algorithm::join(stage.adds, ", ") },
+                  "the fine cells of a box of more than 20 000 cells are around the points of the start. Write larger "
+                  "cells or a smaller box.");
+    if (stage.name.empty()) // What is wrong in a stage is said before the case runs.
+      for (const std::string &subsection : stages)
+        Parameters(case_file, subsection);
   }
 
 

@@ -440,6 +440,39 @@ namespace scree
   }
 
 
+  void InputFile::take_up_to(const std::string &prefix, const std::string &last)
+  {
+    std::vector<Statement> result;
+    const auto name_at_top = [&](const Statement &statement) {
+      const std::string path =
+          statement.kind == Kind::subsection ? subsection_path(statement.path, statement.name) : statement.path;
+      return path.substr(0, path.find('/'));
+    };
+    for (const Statement &statement : statements)
+      if (name_at_top(statement).rfind(prefix, 0) != 0)
+        result.push_back(statement);
+    bool counts = !last.empty();
+    for (const std::string &name : subsections(prefix))
+      {
+        for (const bool is_inner : { false, true }) // What stands directly in a stage comes before its subsections.
+          for (Statement statement : statements)
+            {
+              const bool is_frame =
+                  statement.kind == Kind::subsection ? statement.path.empty() : statement.path == name;
+              if (!counts || name_at_top(statement) != name || is_inner == is_frame || (is_frame && name != last))
+                continue;
+              if (is_inner)
+                statement.path.erase(0, name.size() + 1);
+              else
+                (statement.kind == Kind::subsection ? statement.name : statement.path) = Utilities::trim(prefix);
+              result.push_back(statement);
+            }
+        counts = counts && name != last;
+      }
+    statements = result;
+  }
+
+
   void InputFile::check(const ParameterHandler &prm,
                         const std::string &last_remedy,
                         const SubsectionRemedy &subsection_remedy) const

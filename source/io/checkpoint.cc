@@ -22,7 +22,7 @@ namespace scree
 
     const std::string name_of_manifest = "manifest", name_of_step = "step-", name_of_entries = "entries",
                       name_of_state = "state", name_of_points = "points.", name_of_mesh = "mesh.";
-    const std::string format_line    = "Scree checkpoint, format 23";
+    const std::string format_line    = "Scree checkpoint, format 24";
     const std::string checksum_label = "checksum: ";
 
     std::uint64_t checksum_of(const std::string &content)

@@ -667,7 +667,8 @@ namespace scree
       require_apart<dim>(soil, points_per_cell().second, { grid.triangulation(), grid.cell_size() });
     auto entries = parameters.bodies.begin();
     for (auto &body : bodies)
-      seed(body, (entries++)->seeding, { grid.triangulation(), grid.cell_size(), ground.get(), parameters.has_water });
+      if (const BodyParameters &of_case = *entries++; of_case.is_there)
+        seed(body, of_case.seeding, lattice_of_soil());
     if (parameters.has_water)
       require_phreatic_surface(parameters.water, bodies, grid);
     for (auto &part : water)
@@ -775,8 +776,10 @@ namespace scree
       {
         const BodyParameters &entries       = *parameters.find_body(body.name);
         const InitialStateParameters &state = entries.initial_state;
-        const std::string modulus           = entries.material.modulus_text(body.name);
-        const double k0                     = entries.k0();
+        if (!entries.is_there)
+          continue;
+        const std::string modulus = entries.material.modulus_text(body.name);
+        const double k0           = entries.k0();
         set_place_values(body, entries.material.path(body.name), soil, grid);
         if (!state.is_k0())
           {
@@ -799,6 +802,64 @@ namespace scree
           set_hydrostatic_pressure(
               part, water_above, suction, parameters.water.has_levels() ? 1e-2 * grid.cell_size() : 0.);
       }
+  }
+
+
+  template <int dim>
+  StageMasses Scene<dim>::begin_stage()
+  {
+    const StageParameters &stage = parameters.stage;
+    StageMasses masses;
+    if (!stage.removed.empty())
+      {
+        const Region<dim> region(entry_name("Stage", "Remove"), stage.removed);
+        const Point<dim> beyond = grid.upper_corner() + (grid.upper_corner() - grid.lower_corner());
+        const auto remove       = [&](PointSet<dim> &points) { // beside the mesh they leave the set
+          on_all_ranks(communicator, [&] {
+            for_each_point(points, [&](const auto &point) {
+              if (region.contains(point.location))
+                point.location = beyond;
+            });
+          });
+          points.sort();
+          points.lost().clear();
+        };
+        const auto mass_in_region = [&](const PointSet<dim> &points, const unsigned int slot) {
+          double mass = 0.;
+          for_each_point(points, [&](const auto &point) {
+            mass += region.contains(point.location) ? point.properties[slot] : 0.;
+          });
+          return mass;
+        };
+        on_all_ranks(communicator, [&] {
+          for (const auto &body : bodies)
+            masses.removed_soil += mass_in_region(body.points, body.layout.mass);
+          for (const auto &part : water)
+            masses.removed_water += mass_in_region(part.points(), part.layout.mass);
+        });
+        for (auto &body : bodies)
+          remove(body.points);
+        for (auto &part : water)
+          if (part.carrier() == nullptr)
+            remove(part.points());
+      }
+    for (const std::string &name : stage.adds)
+      {
+        SoilBody<dim> &body =
+            *std::find_if(bodies.begin(), bodies.end(), [&](const SoilBody<dim> &one) { return one.name == name; });
+        const BodyParameters &entries = *parameters.find_body(name);
+        seed(body, entries.seeding, lattice_of_soil());
+        SoilRegion region{ name, entries.seeding.expression(), 0., 0., entries.seeding.map };
+        set_place_values(body, entries.material.path(name), { region }, grid);
+        set_isotropic_stress(body, 0., entries.material.modulus_text(name), communicator);
+        for_each_point(body.points,
+                       [&](const auto &point) { masses.added_soil += point.properties[body.layout.mass]; });
+      }
+    require_points_outside_obstacles();
+    mark_start();
+    std::vector<double> sums{ masses.removed_soil, masses.removed_water, masses.added_soil };
+    Utilities::MPI::sum(sums, communicator, sums);
+    return { sums[0], sums[1], sums[2] };
   }
 
 

@@ -271,6 +271,11 @@ namespace scree
           add_value(row, "Momentum entered", "N s", totals.entered_momentum);
           add_value(row, "Energy entered", "J", totals.entered_energy);
         }
+      if (features.stages)
+        {
+          add_value(row, "Mass removed", "kg", totals.removed_mass);
+          add_value(row, "Mass added", "kg", totals.added_mass);
+        }
       if (features.contacts)
         add_value(row, "Contact dissipation", "J", balance.contact_dissipation);
       if (features.loads)

@@ -36,6 +36,7 @@ namespace scree
       std::string name;      ///< subsection of Task::print_parameters, scene of Task::new_case; may be empty
       double accuracy = default_accuracy;   ///< of Task::advise, relative error
       double n_ranks  = 0;                  ///< of Task::advise; 0: those of this program
+      std::string stage;                    ///< after which Task::safety searches; empty: the last one
       std::vector<std::string> options;     ///< names of all of them
       std::vector<std::string> other_words; ///< that are no options
 
@@ -56,6 +57,7 @@ namespace scree
 
     const std::vector<Option> options{ { "--resume", Task::resume, "" },
                                        { "--safety", Task::safety, "" },
+                                       { "--stage", {}, "--safety" },
                                        { "--advise", Task::advise, "" },
                                        { "--accuracy", {}, "--advise" },
                                        { "--ranks", {}, "--advise" },
@@ -131,6 +133,12 @@ namespace scree
                 if (!(sorted.accuracy > 0 && sorted.accuracy < 1))
                   throw fault("\"--accuracy\" is " + quoted(words[w]) +
                               ". Write a relative error between 0 and 1, such as 0.05.");
+              }
+            if (option.name == "--stage")
+              {
+                if (++w == words.size())
+                  throw fault("after \"--stage\", the name of a stage is missing. Write one of the case.");
+                sorted.stage = words[w];
               }
             if (option.name == "--ranks")
               {
@@ -231,7 +239,9 @@ namespace scree
     {
       return "Usage: scree case.prm             run a case\n"
              "       scree case.prm --resume    continue from the newest checkpoint in its run folder\n"
-             "       scree case.prm --safety    factor of safety of a slope by strength reduction\n"
+             "       scree case.prm --safety [--stage NAME]\n"
+             "                                  factor of safety of a slope by strength reduction, at the start or\n"
+             "                                  after a stage (the last one without its name)\n"
              "       scree case.prm --advise [--accuracy 0.05] [--ranks 64]\n"
              "                                  regime, estimated cost and recommendations\n"
              "       scree --new                list of scenes to start from\n"
@@ -433,7 +443,9 @@ namespace scree
                             arguments.name, arguments.case_file, arguments.has("--overwrite"), communicator));
           return 0;
         case Task::safety:
-          return run_case(arguments, [&](const auto dim, const Parameters &parameters) {
+          return run_case(arguments, [&](const auto dim, Parameters &parameters) {
+            if (!arguments.stage.empty())
+              parameters.end_after_stage(arguments.stage);
             return find_safety<dim()>(parameters, communicator);
           });
         case Task::advise:

@@ -66,6 +66,7 @@ namespace scree
     public:
       Trials(const Parameters &given, const MPI_Comm communicator)
           : given(given)
+          , last_stage(given.stages.empty() ? "" : given.stages.back())
           , path(given.output_directory + "/safety")
           , communicator(communicator)
           , folder(path, given.output.screen_kind() == Screen::progress, communicator)
@@ -136,11 +137,21 @@ namespace scree
       TrialEnd settle()
       {
         constexpr double factor = 0.25; // deforms little beyond elasticity
-        const auto parameters   = parameters_of_trial(factor, "settled");
-        Simulation<dim> simulation(*parameters, Start::fresh, communicator);
-        if (!simulation.is_settled())
-          return TrialEnd::undecided;
-        const Trial trial = simulation.try_strength(std::numeric_limits<double>::infinity());
+        std::vector<std::string> stages{ "" };
+        stages.insert(stages.end(), given.stages.begin(), given.stages.end());
+        std::unique_ptr<Parameters> parameters;
+        std::unique_ptr<Simulation<dim>> before; // has written the checkpoint that the next one begins with
+        for (const std::string &stage : stages)
+          {
+            before.reset();
+            parameters = parameters_of_trial(factor, "settled", stage);
+            before     = std::make_unique<Simulation<dim>>(
+                *parameters, stage.empty() ? Start::fresh : Start::new_stage, communicator);
+            if (!before->is_settled() || (stage != last_stage && before->run() == End::stopped))
+              return TrialEnd::undecided;
+          }
+        Simulation<dim> &simulation = *before;
+        const Trial trial           = simulation.try_strength(std::numeric_limits<double>::infinity());
         if (trial.end == TrialEnd::rests)
           simulation.write_checkpoint();
         bracket.include(factor, trial.end);
@@ -154,7 +165,7 @@ namespace scree
       {
         Trial trial;
         {
-          const auto parameters    = parameters_of_trial(factor, "trial");
+          const auto parameters    = parameters_of_trial(factor, "trial", last_stage);
           parameters->start_folder = path + "/settled";
           Simulation<dim> simulation(*parameters, Start::resume, communicator);
           trial = simulation.try_strength(given.safety.displacement);
@@ -180,9 +191,11 @@ namespace scree
       }
 
 
-      std::unique_ptr<Parameters> parameters_of_trial(const double factor, const std::string &name)
+      /// @param name of its folder
+      std::unique_ptr<Parameters>
+      parameters_of_trial(const double factor, const std::string &name, const std::string &stage)
       {
-        auto parameters = std::make_unique<Parameters>(given.case_file);
+        auto parameters = std::make_unique<Parameters>(given.case_file, stage);
         parameters->set("", "Output directory", path + '/' + name);
         parameters->set("Output", "Screen", "nothing");
         if (given.output.graphics_kind() == Pictures::none)
@@ -225,6 +238,7 @@ namespace scree
       }
 
       const Parameters &given;
+      const std::string last_stage; // after whose settling the factor is; empty: of the case itself
       const std::string path;
       const MPI_Comm communicator;
       RunFolder folder;
@@ -241,6 +255,8 @@ namespace scree
   End find_safety(const Parameters &parameters, const MPI_Comm communicator)
   {
     check(parameters);
+    for (const std::string &stage : parameters.stages)
+      check(Parameters(parameters.case_file, stage));
     Parameters(parameters.case_file).reduce_strength(0.5); // throws if there is none, before files
     return Trials<dim>(parameters, communicator).search();
   }

@@ -56,7 +56,8 @@ namespace scree
         parameters.start_folder.empty() ? parameters.output_directory : parameters.start_folder,
         [this](const std::string &line) { folder.log(line); },
         communicator);
-    const std::vector<std::string> notes = notes_on_changes(checkpoint, parameters.entries());
+    const std::vector<std::string> notes =
+        notes_on_changes(checkpoint, parameters.entries(), start == Start::new_stage);
     load_checkpoint(checkpoint, scene.grid, point_sets(), [&](auto &archive) { serialize_state(archive); });
     require_entry(!(parameters.end_time < clock.time()),
                   { "", "End time", parameters.end_time },
@@ -68,13 +69,65 @@ namespace scree
     scheme->set_solver_state(solver_state);
     points_at_edge = are_points_at_edge() || points_at_edge;
     output_times.begin(clock.time());
-    record_case(parameters, folder);
-    log_case(scene, folder);
     results.cut();
-    folder.log("Resumed at t = " + number_text(clock.time()) + " s, step " + std::to_string(clock.step()) + ", from " +
-               checkpoint.folder + " of " + checkpoint.program + '.');
+    if (start == Start::resume)
+      {
+        if (parameters.stage.name.empty())
+          record_case(parameters, folder);
+        log_case(scene, folder);
+        folder.log("Resumed at t = " + number_text(clock.time()) + " s, step " + std::to_string(clock.step()) +
+                   ", from " + checkpoint.folder + " of " + checkpoint.program + '.');
+      }
+    else
+      folder.log("Stage       " + parameters.stage.name + ", from t = " + number_text(clock.time()) + " to " +
+                 number_text(parameters.end_time) + " s");
     for (const std::string &note : notes)
       folder.log(note);
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::begin_stage()
+  {
+    const std::string unit   = dim == 2 ? " kg/m" : " kg";
+    const StageMasses masses = scene.begin_stage();
+    if (!parameters.stage.removed.empty())
+      folder.log("Removed     soil " + short_text(masses.removed_soil) + unit +
+                 (scene.water.empty() ? "" : ", water " + short_text(masses.removed_water) + unit));
+    if (!parameters.stage.adds.empty())
+      folder.log("Added       soil " + short_text(masses.added_soil) + unit);
+    require_entry(parameters.stage.removed.empty() || masses.removed_soil + masses.removed_water > 0.,
+                  { "Stage", "Remove", parameters.stage.removed },
+                  "no point is there. Look at the expression.");
+    reinit();
+    measure_speeds();
+    clock.set(clock.time(), clock.step() + 1); // The end of the stage before keeps its checkpoint.
+    totals.removed_mass += Utilities::MPI::this_mpi_process(communicator) == 0 ? masses.removed_soil : 0.;
+    totals.added_mass += Utilities::MPI::this_mpi_process(communicator) == 0 ? masses.added_soil : 0.;
+    if (parameters.settling.maximum_time > 0.)
+      settle();
+    else
+      begin_balances();
+    if (!is_released)
+      return;
+    results.begin_balances();
+    scene.mark_start();
+    scheme->read_points();
+  }
+
+
+  template <int dim>
+  void Simulation<dim>::begin_balances()
+  {
+    const RunBalance<dim> before = totals;
+    totals                       = RunBalance<dim>(scene.obstacles.size());
+    totals.n_lost                = before.n_lost;
+    totals.lost_mass             = before.lost_mass;
+    totals.lost_through          = before.lost_through;
+    totals.lost_volume           = before.lost_volume;
+    totals.lost_water_mass       = before.lost_water_mass;
+    totals.removed_mass          = before.removed_mass;
+    totals.added_mass            = before.added_mass;
   }
 
 
@@ -84,7 +137,7 @@ namespace scree
     timer.reset(); // Only the steps' time is reported.
     stop.listen();
     progress = std::make_unique<Progress>(folder, clock.time(), parameters.end_time, shown_motion(scene).first);
-    if (start == Start::fresh && is_released) // A resumed run has reported its first state, also that at t = 0.
+    if (start != Start::resume && is_released) // A resumed run has reported its first state, also that at t = 0.
       report();
     const double updates_before = point_updates;
     const double first_step     = stable_step();
@@ -113,6 +166,8 @@ namespace scree
     const End end = is_at_end() ? End::complete : End::stopped;
     if (end == End::stopped)
       write_last();
+    else if (!parameters.stages.empty() && StageParameters::prefix + parameters.stage.name != parameters.stages.back())
+      write_checkpoint(); // for the next stage
     summarise(end, updates_before);
     return end;
   }
@@ -125,10 +180,11 @@ namespace scree
     if (!is_released)
       {
         write_row();
-        folder.log(
-            "Stopped while settling, by " + text_of(reason) +
-            ". There is no checkpoint, as nothing can go on from a state before the release: run the case again. "
-            "The row at t = 0 is of the soil on its way to rest.");
+        folder.log("Stopped while settling, by " + text_of(reason) +
+                   (start == Start::new_stage ? ". --resume goes on from the end of the stage before."
+                                              : ". There is no checkpoint, as nothing can go on from a state before "
+                                                "the release: run the case again. "
+                                                "The row at t = 0 is of the soil on its way to rest."));
         return;
       }
     write_checkpoint();
@@ -255,7 +311,7 @@ namespace scree
                     "; they followed the points " + std::to_string(n_refinements) + " times, which took " +
                     number_text(seconds_of(timer, TimerSection::repartition)) + " s");
     log_end(scene, totals, folder);
-    results.complete();
+    results.complete(is_released);
   }
 
 
@@ -575,29 +631,25 @@ namespace scree
   void Simulation<dim>::settle()
   {
     constexpr unsigned int steps_between_lines = 1000;
-    constexpr unsigned int least_way           = 4;  // Single points do not stop the others.
-    constexpr unsigned int steps_at_rest       = 20; // The force of an oscillation vanishes for a moment.
+    constexpr double past_peak                 = 0.9; // part of the largest kinetic energy: a fixed angle of any mode
+    constexpr unsigned int steps_at_rest       = 20;  // The force of an oscillation vanishes for a moment.
     const SettlingParameters &settling         = parameters.settling;
     const std::string name_of_ratio            = "unbalanced force over weight ";
     if (!settling.gate.empty())
       scene.close_gate(settling.gate);
 
     // All stops where the kinetic energy is largest (@source{barnes1999}), whatever the stiffness.
-    double ratio           = std::numeric_limits<double>::infinity(); // not known yet
-    double kinetic         = 0.;
-    unsigned int n_falling = 0; // steps with less kinetic energy since the last stop
-    unsigned int n_below   = 0;
-    const auto is_at_rest  = [&](const TimeStepper &until_rest, const double step) {
+    double ratio          = std::numeric_limits<double>::infinity(); // not known yet
+    double largest        = 0.;                                      // kinetic energy since the last stop
+    unsigned int n_below  = 0;
+    const auto is_at_rest = [&](const TimeStepper &until_rest, const double step) {
       const NodalForces forces = scheme->nodal_forces(step).sum_over_ranks(communicator);
       ratio                    = forces.ratio();
       n_below                  = ratio < settling.unbalanced_force ? n_below + 1 : 0;
-      const bool is_past_peak  = forces.kinetic < kinetic && ++n_falling >= least_way;
+      const bool is_past_peak  = forces.kinetic < past_peak * largest;
       if (is_past_peak)
-        {
-          scene.stop();
-          n_falling = 0;
-        }
-      kinetic = is_past_peak ? 0. : forces.kinetic;
+        scene.stop();
+      largest = is_past_peak ? 0. : std::max(largest, forces.kinetic);
       if (until_rest.step() % steps_between_lines == 0)
         folder.log("Settling: " + number_text(until_rest.time()) + " s, step " + std::to_string(until_rest.step()) +
                    ", " + name_of_ratio + number_text(ratio));
@@ -618,14 +670,7 @@ namespace scree
             folder.record("Settling: " + check.name + ' ' + check.value);
         results.add_checks(checks);
       }
-    // Balances begin at the release; what was lost stays lost.
-    const RunBalance<dim> settled = totals;
-    totals                        = RunBalance<dim>(scene.obstacles.size());
-    totals.n_lost                 = settled.n_lost;
-    totals.lost_mass              = settled.lost_mass;
-    totals.lost_through           = settled.lost_through;
-    totals.lost_volume            = settled.lost_volume;
-    totals.lost_water_mass        = settled.lost_water_mass;
+    begin_balances(); // at the release
   }
 
 
@@ -704,27 +749,68 @@ namespace scree
   template class Simulation<3>;
 
 
+  namespace
+  {
+    /// The case itself, without its stages.
+    template <int dim>
+    End run_case(Parameters &parameters, const Start start, const MPI_Comm communicator)
+    {
+      const double factor = parameters.safety.strength_factor;
+      const bool weakens  = parameters.settling.maximum_time > 0. && factor != 1.;
+      if (weakens && start == Start::fresh)
+        {
+          Parameters(parameters.case_file).reduce_strength(factor); // throws before files are touched
+          parameters.set("Safety", "Strength factor", "1");
+          const double begin = MPI_Wtime();
+          Simulation<dim> settled(parameters, start, communicator);
+          if (!settled.is_settled())
+            return settled.run();
+          settled.report();
+          settled.write_checkpoint();
+          if (double &limit = parameters.output.wall_time_limit; limit > 0.)
+            limit = std::max(limit + begin - MPI_Wtime(), 1e-3); // 0 is no limit
+        }
+      if (weakens)
+        parameters.reduce_strength(factor);
+      return Simulation<dim>(parameters, weakens ? Start::resume : start, communicator).run();
+    }
+  } // namespace
+
+
   template <int dim>
   End run_in_phases(Parameters &parameters, const Start start, const MPI_Comm communicator)
   {
-    const double factor = parameters.safety.strength_factor;
-    const bool weakens  = parameters.settling.maximum_time > 0. && factor != 1.;
-    if (weakens && start == Start::fresh)
+    auto next         = parameters.stages.begin();
+    bool is_to_resume = false; // the stage in which the newest checkpoint is
+    if (start == Start::resume && !parameters.stages.empty())
       {
-        Parameters(parameters.case_file).reduce_strength(factor); // throws before files are touched
-        parameters.set("Safety", "Strength factor", "1");
-        const double begin = MPI_Wtime();
-        Simulation<dim> settled(parameters, start, communicator);
-        if (!settled.is_settled())
-          return settled.run();
-        settled.report();
-        settled.write_checkpoint();
-        if (double &limit = parameters.output.wall_time_limit; limit > 0.)
-          limit = std::max(limit + begin - MPI_Wtime(), 1e-3); // 0 is no limit
+        const CaseEntries entries = find_checkpoint(
+                                        parameters.output_directory, [](const std::string &) {}, communicator)
+                                        .entries;
+        if (const CaseEntry *name = entries.find("Stage", "Name"))
+          {
+            next         = std::find(next, parameters.stages.end(), StageParameters::prefix + name->value);
+            is_to_resume = next != parameters.stages.end();
+            require_entry(is_to_resume,
+                          { "", "Output directory", parameters.output_directory },
+                          "its newest checkpoint is of a stage " + quoted(name->value) +
+                              ", which the case does not have. Run without --resume.");
+          }
       }
-    if (weakens)
-      parameters.reduce_strength(factor);
-    return Simulation<dim>(parameters, weakens ? Start::resume : start, communicator).run();
+    End end = is_to_resume ? End::complete : run_case<dim>(parameters, start, communicator);
+    for (; next != parameters.stages.end() && end == End::complete; ++next, is_to_resume = false)
+      {
+        Parameters of_stage(parameters.case_file, *next);
+        try
+          {
+            end = Simulation<dim>(of_stage, is_to_resume ? Start::resume : Start::new_stage, communicator).run();
+          }
+        catch (const EntryError &error)
+          {
+            throw of_stage.error(error);
+          }
+      }
+    return end;
   }
 
   template End run_in_phases<2>(Parameters &, const Start, const MPI_Comm);

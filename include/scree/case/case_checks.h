@@ -34,7 +34,9 @@ namespace scree
   /// Compares the entries of a case with those of the checkpoint it is to go on from. Returns a line for the log for
   /// each change that the results will show; throws EntryError at changes that the state in the checkpoint does not
   /// bear.
-  std::vector<std::string> notes_on_changes(const Checkpoint &checkpoint, const CaseEntries &now);
+  /// @param begins_stage at the start of a stage walls, friction and strength may change, too
+  std::vector<std::string>
+  notes_on_changes(const Checkpoint &checkpoint, const CaseEntries &now, const bool begins_stage);
 
   /// What a case will take of memory, from its entries alone.
   struct MemoryEstimate

@@ -27,6 +27,8 @@ namespace scree
     double conductivity = 0;              ///< of water, m/s, at the initial porosity; 0: that of subsection Water
     MaterialParameters material;          ///< law and its entries
     InitialStateParameters initial_state; ///< stress before the first step
+    std::string added_by;                 ///< subsection of the stage in which it appears; empty: it starts the case
+    bool is_there = true;                 ///< false: a later stage adds it
 
     /// Declares the body's subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm)
@@ -114,12 +116,27 @@ namespace scree
     void add_parameters(dealii::ParameterHandler &prm);
   };
 
+  /// Subsections Stage NAME: what changes when a run goes on from the end of the case, or of the stage before.
+  struct StageParameters
+  {
+    static constexpr const char *prefix = "Stage ";
+
+    std::string name;              ///< of its subsection, without the prefix; empty: the case itself
+    double duration = 0;           ///< s, after its settling
+    std::string removed;           ///< expression: where soil and water vanish when it begins; empty: nowhere
+    std::vector<std::string> adds; ///< bodies that appear when it begins
+
+    /// Declares the subsection and its entries.
+    void add_parameters(dealii::ParameterHandler &prm);
+  };
+
   /// Everything a `.prm` file says, checked. Each member's own add_parameters() names its entries.
   class Parameters
   {
   public:
     /// Reads and checks `file`. Throws InputError, which names file, subsection, entry, value and remedy.
-    explicit Parameters(const std::string &file);
+    /// @param stage name of its subsection: the case as it is in that stage; empty: before its stages
+    explicit Parameters(const std::string &file, const std::string &stage = "");
 
     /// The defaults, as needed to print a template of all entries.
     Parameters();
@@ -147,6 +164,8 @@ namespace scree
     SurfaceLoadParameters surface_load;        ///< subsection Surface load
     SettlingParameters settling;               ///< subsection Settling
     SafetyParameters safety;                   ///< subsection Safety
+    StageParameters stage;                     ///< the stage that this is
+    std::vector<std::string> stages;           ///< subsections of all stages, in the order of the file
     OutputParameters output;                   ///< subsection Output
     ProbeParameters probes;                    ///< subsection Probes
 
@@ -167,17 +186,28 @@ namespace scree
     /// factor" does in a case that does not settle. Once only. Throws EntryError if there is no soil that has strength.
     void reduce_strength(const double factor);
 
+    /// Leaves out the stages after the one of this name. Throws EntryError if there is none.
+    void end_after_stage(const std::string &name)
+    {
+      const auto last = std::find(stages.begin(), stages.end(), StageParameters::prefix + name);
+      if (last == stages.end())
+        throw EntryError("--stage " + name + ": the case has " +
+                         (stages.empty() ? "no stages." : "the stages " + boost::algorithm::join(stages, ", ") + '.'));
+      stages.erase(last + 1, stages.end());
+    }
+
     /// Changes an entry as if the file had it so; nothing is checked again.
     /// @param subsection its path
     void set(const std::string &subsection, const std::string &entry, const std::string &value);
 
-    /// Where the bodies are, and how porous and heavy.
+    /// Where the bodies that are there are at their start, and how porous and heavy.
     std::vector<SoilRegion> soil_regions() const
     {
       std::vector<SoilRegion> regions;
       for (const auto &body : bodies)
-        regions.push_back(
-            { body.name, body.seeding.expression(), body.initial_porosity(), body.bulk_density(), body.seeding.map });
+        if (body.is_there)
+          regions.push_back(
+              { body.name, body.seeding.expression(), body.initial_porosity(), body.bulk_density(), body.seeding.map });
       return regions;
     }
 
@@ -214,6 +244,8 @@ namespace scree
       CaseEntries result(handler);
       for (const NamedFile &named : named_files)
         result.set_file(named);
+      if (!stage.name.empty())
+        result.add({ "Stage", "Name", stage.name });
       return result;
     }
 
@@ -277,6 +309,12 @@ namespace scree
     /// height, and four cells above the highest soil. Throws EntryError if it cannot be read or has no heights.
     void take_box_from_raster();
     void take_unit_weights();
+
+    /// Takes the entries of the stages up to this one; the end of the case is that of the stage.
+    void take_stages(const std::string &last);
+
+    /// Throws InputError if this or another stage is not possible.
+    void check_stages() const;
     void read_maps();
     void check_dry() const;
 
@@ -306,6 +344,7 @@ namespace scree
 
     InputFile file;
     std::vector<NamedFile> named_files;
+    std::vector<double> durations; // of the stages up to this one, s
     std::vector<std::string> body_names{ "Soil" };
     dealii::ParameterHandler handler;
   };

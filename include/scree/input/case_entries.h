@@ -70,6 +70,12 @@ namespace scree
           }
     }
 
+    /// Appends an entry that no file sets.
+    void add(const CaseEntry &entry)
+    {
+      entries.push_back(entry);
+    }
+
     /// The entry, or nullptr if there is none.
     const CaseEntry *find(const std::string &subsection, const std::string &name) const
     {

@@ -68,6 +68,12 @@ namespace scree
     /// The names of the subsections at the top that begin with `prefix`, each once.
     std::vector<std::string> subsections(const std::string &prefix) const;
 
+    /// Takes the entries of subsections at the top that begin with `prefix` as entries of the case: those of the ones
+    /// up to `last`, in the order of the file, come after all others, as if they stood at the top. Entries directly in
+    /// the last one go into a subsection that is named `prefix`, without its blank at the end; those of later ones go.
+    /// @param last empty: none of them counts
+    void take_up_to(const std::string &prefix, const std::string &last);
+
     /// What helps if this subsection is not declared; empty: check() suggests the closest name.
     using SubsectionRemedy = std::function<std::string(const std::string &subsection)>;
 

@@ -9,6 +9,12 @@
 
 namespace scree
 {
+  /// What a stage removes and adds, kg (2D: per m).
+  struct StageMasses
+  {
+    double removed_soil = 0, removed_water = 0, added_soil = 0;
+  };
+
   /// What a case describes: the mesh, its walls, bodies of soil, water and loads.
   template <int dim>
   class Scene
@@ -21,6 +27,10 @@ namespace scree
     /// Fills bodies and water with points, and gives them the state that the case starts from. Collective; throws
     /// EntryError where the case does not fit itself.
     void fill();
+
+    /// At the start of a stage: removes the points of its region, and seeds its bodies, without stress. Displacements
+    /// count from here. Collective; throws EntryError where the case does not fit itself.
+    StageMasses begin_stage();
 
     /// What acts on the soil in the step, s, that comes.
     void begin_step(const double time, const double time_step);
@@ -122,6 +132,10 @@ namespace scree
     /// Fewest and most of all bodies, along an axis; without bodies as many as there are numbers, and 1.
     std::pair<unsigned int, unsigned int> points_per_cell() const;
     void fill_with_points();
+    Lattice<dim> lattice_of_soil() const
+    {
+      return { grid.triangulation(), grid.cell_size(), ground.get(), parameters.has_water };
+    }
     void set_velocity_gradients();
 
     /// Tells the nodes which inflow moves them. Until the next step begins they are at rest.

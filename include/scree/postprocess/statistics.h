@@ -31,6 +31,8 @@ namespace scree
     double entered_mass       = 0;           ///< of soil, kg
     double entered_water_mass = 0;           ///< kg
     double entered_energy     = 0;           ///< kept_energy() of BalanceState, J
+    double removed_mass       = 0;           ///< of soil, by stages, kg
+    double added_mass         = 0;           ///< of soil, by stages, kg
     double n_lost             = 0;           ///< points that left the box; exact, and travels like the rest
     UpdateReport material;                   ///< dissipation and counts of the stress updates
     double elastic_energy = 0;               ///< of the middle of the last step, see UpdateReport, J
@@ -76,6 +78,7 @@ namespace scree
           .averaging_work &lost_mass &lost_volume &lost_water_mass &lost_energy &lost_momentum &n_lost;
       archive &lost_through;
       archive &entered_momentum &n_entered &entered_mass &entered_water_mass &entered_energy;
+      archive &removed_mass &added_mass;
       archive &elastic_energy;
       archive &material.n_updates &material.n_substeps &material.n_fallbacks;
       archive &material.n_vertices &material.n_unresolved;
@@ -167,7 +170,8 @@ namespace scree
         pressure_work                         = false,   ///< of suction and of pressure at drained walls
         viscosity                             = false,   ///< viscosity of the water
         inflows                               = false,   ///< what has entered
-        contacts                              = false;   ///< contact between bodies
+        contacts                              = false,   ///< contact between bodies
+        stages                                = false;   ///< what they have removed and added
     const DiscreteLevelSet<dim> *bed          = nullptr; ///< the bed; null without it
     const std::list<Obstacle<dim>> *obstacles = nullptr; ///< the obstacles; null without them
     std::vector<unsigned int> walls           = {};      ///< faces of the box whose forces have columns
@@ -284,6 +288,13 @@ namespace scree
                           const double time_step,
                           const UpdateReport &last_step,
                           const WaterView<dim> *view = nullptr);
+
+    /// Balances and sums begin anew at the next row.
+    void begin_balances()
+    {
+      history.start   = {};
+      history.balance = {};
+    }
 
     /// The start of the run, once its first row has been made.
     BalanceStart<dim> &start()

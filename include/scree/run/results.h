@@ -60,6 +60,7 @@ namespace scree
                        parameters.water.viscosity > 0.,
                        !parameters.inflows.empty() || parameters.rain.is_set(),
                        parameters.contact_groups().n > 1,
+                       !parameters.stages.empty(),
                        scene.bed.get(),
                        &scene.obstacles,
                        faces_with_forces(scene),
@@ -77,7 +78,7 @@ namespace scree
                  parameters.probes.wall_forces ? nullptr : &scene.walls,
                  inflow_faces(scene.parameters),
                  folder)
-        , balances(scene.grid, scene.forcing)
+        , balances(std::in_place, scene.grid, scene.forcing)
         , files(scene.grid.communicator())
     {
     }
@@ -108,14 +109,14 @@ namespace scree
     /// @param sums of all ranks, as the next one
     void watch(const MovingSums<dim> &sums, const RunBalance<dim> &totals, const double time, const double time_step)
     {
-      if (!balances.has_looked())
+      if (!balances->has_looked())
         return;
       BalanceStart<dim> &start             = statistics.start();
       const dealii::Tensor<1, dim> gravity = scene.forcing.gravity();
       const double mass_scaling            = scene.forcing.mass_scaling();
       start.begin(time_step, gravity * start.momentum / mass_scaling);
       start.least_averaging_work = std::min(start.least_averaging_work, totals.material.averaging_work);
-      balances.look({ start, mass_scaling, gravity, sums, totals, time, time_step });
+      balances->look({ start, mass_scaling, gravity, sums, totals, time, time_step });
     }
 
     /// Output of the state as it is. Collective.
@@ -130,8 +131,8 @@ namespace scree
                                                    state.time_step,
                                                    state.last_update,
                                                    view.get());
-      if (!balances.has_looked())
-        balances.look(now.balance());
+      if (!balances->has_looked())
+        balances->look(now.balance());
       rows.append(statistics.columns(), { statistics.values() });
       probes.write_rows({ scene.bodies, scene.water, state.time });
       maps.sample(scene.bodies, state.time);
@@ -169,6 +170,19 @@ namespace scree
       return files;
     }
 
+    /// At the start of a stage: balances begin anew, and those of the stage before that did not hold stay.
+    void begin_balances()
+    {
+      for (CheckResult &check : balances->results())
+        if (check.is_exceeded)
+          {
+            check.name += " of an earlier stage";
+            found.push_back(check);
+          }
+      balances.emplace(scene.grid, scene.forcing);
+      statistics.begin_balances();
+    }
+
     /// Brings all rows to the disk, before a checkpoint counts on them.
     void sync()
     {
@@ -195,14 +209,18 @@ namespace scree
 
     /// At the end of a run: reports where the results are, and writes rows that the disk did not take. Throws FileError
     /// if it still refuses them.
-    void complete()
+    /// @param is_released whether soil that settles has come to its release: before, its motion is no result
+    void complete(const bool is_released)
     {
-      add_checks(balances.results());
+      add_checks(balances->results());
       add_checks(checks.results());
       add_checks(statistics.results());
-      add_checks(statistics.soil_motion().results());
-      if (const std::string text = statistics.soil_motion().text(); !text.empty())
-        folder.log(text);
+      if (is_released)
+        {
+          add_checks(statistics.soil_motion().results());
+          if (const std::string text = statistics.soil_motion().text(); !text.empty())
+            folder.log(text);
+        }
       if (!found.empty())
         folder.log(verdict(found));
       folder.write("checks.csv", verdict_table(found));
@@ -225,7 +243,7 @@ namespace scree
     template <class Archive>
     void serialize(Archive &archive)
     {
-      archive &statistics &graphics &rows &probes &maps &found &checks &balances;
+      archive &statistics &graphics &rows &probes &maps &found &checks &*balances;
     }
 
   private:
@@ -268,8 +286,8 @@ namespace scree
     Maps<dim> maps;
     std::vector<CheckResult> found; // in checks that have ended
     RunChecks<dim> checks;
-    BalanceChecks<dim> balances;
-    BackgroundWriter files; // the last member: its jobs use others
+    std::optional<BalanceChecks<dim>> balances; // of the stage
+    BackgroundWriter files;                     // the last member: its jobs use others
   };
 } // namespace scree
 

@@ -12,7 +12,8 @@ namespace scree
   enum class Start
   {
     fresh,
-    resume ///< from the newest checkpoint in the run folder
+    resume,   ///< from the newest checkpoint in the run folder
+    new_stage ///< from the same, which is of the end of the stage before
   };
 
   /// How a run ends.
@@ -102,10 +103,12 @@ namespace scree
         , results(scene, *scheme, folder)
         , totals(scene.obstacles.size())
     {
-      if (start == Start::resume)
-        resume();
-      else
+      if (start == Start::fresh)
         initialise();
+      else
+        resume();
+      if (start == Start::new_stage)
+        begin_stage();
     }
 
     /// From the start to the end time, with all output; or to a request to stop (StopRequests), with a checkpoint
@@ -225,6 +228,9 @@ namespace scree
   private:
     void initialise();
     void resume();
+
+    /// Removes and adds what the stage does; the soil settles if the case says so. Balances begin anew. Collective.
+    void begin_stage();
     double stable_step(const TimeStepper &by_clock) const
     {
       const Speeds all = limiting_speeds();
@@ -243,6 +249,9 @@ namespace scree
     TimeStepper relax(const double maximum_time,
                       const unsigned int steps_between_looks,
                       const std::function<bool(const TimeStepper &, double)> &is_over);
+
+    /// All sums begin anew, but for what was lost, removed and added.
+    void begin_balances();
 
     std::vector<CheckResult> checks_of_settling(const double unbalanced_force) const;
 
@@ -395,9 +404,9 @@ namespace scree
     bool is_released                      = true; // or was stopped while it settled
   };
 
-  /// Runs a case to its end time or to a request to stop. If it settles, its "Strength factor" acts from the release
-  /// on: the run then goes on from a checkpoint of the settled soil. Collective.
-  /// @param parameters of the case; afterwards with the strength that the run had
+  /// Runs a case and its stages to the end of the last one or to a request to stop. If the case settles, its "Strength
+  /// factor" acts from the release on: the run then goes on from a checkpoint of the settled soil. Collective.
+  /// @param parameters of the case before its stages; afterwards with the strength that the run had
   template <int dim>
   End run_in_phases(Parameters &parameters, const Start start, const MPI_Comm communicator);
 } // namespace scree

@@ -355,12 +355,9 @@ def vortex_decay(viscosity, density, size):
     return 2 * viscosity / density * (math.pi / size)**2
 
 
-def slip_circle_factor(run_per_rise, depth, strength, strength_below):
-    """Factor of safety of a slope of undrained clay: the least over slip circles of resisting over driving moment (Taylor 1937 with phi_u = 0).
-
-    run_per_rise: 2 of a slope 2:1. depth: of the firm base below the crest, over the height of the slope. strength, strength_below: above and
-    below the level of the toe, over the weight of its height, c_u/(gamma H)."""
-    def factor(circle):
+def _least_over_circles(run_per_rise, depth, factor):
+    """Least factor(angle, x, y, height of soil above, radius, x of the centre) over slip circles of a slope of height 1; see slip_circle_factor()."""
+    def of(circle):
         start, end, half_angle = circle  # x of the start on the crest (0, 1) and beyond, x of the end on the slope or beyond its toe
         rise = 1 - max(1 - end / run_per_rise, 0)
         chord = math.hypot(end - start, rise)
@@ -371,10 +368,35 @@ def slip_circle_factor(run_per_rise, depth, strength, strength_below):
         y0 = 1 - rise / 2 + radius * math.cos(half_angle) * (end - start) / chord
         angle = np.linspace(math.asin(max((start - x0) / radius, -1.)), math.asin(min((end - x0) / radius, 1.)), 1000)
         x, y = x0 + radius * np.sin(angle), y0 - radius * np.cos(angle)
-        driving = np.trapz((np.clip(1 - x / run_per_rise, 0, 1) - y) * (x0 - x), x)
-        if y0 < 1 or driving <= 0 or y.min() < 1 - depth - 1e-9:
+        height = np.clip(1 - x / run_per_rise, 0, 1) - y
+        if y0 < 1 or np.trapz(height * (x0 - x), x) <= 0 or y.min() < 1 - depth - 1e-9:
             return 1e6
-        return np.trapz(np.where(y > 0, strength, strength_below) * radius**2, angle) / driving
+        return factor(angle, x, y, height, radius, x0)
 
     starts = [(start, end * run_per_rise, half_angle) for start in (-0.3, -1.) for end in (1., 1.6) for half_angle in (0.4, 0.9)]
-    return min(optimize.minimize(factor, start, method="Nelder-Mead", options={"xatol": 1e-6, "fatol": 1e-9, "maxiter": 2000}).fun for start in starts)
+    return min(optimize.minimize(of, start, method="Nelder-Mead", options={"xatol": 1e-6, "fatol": 1e-9, "maxiter": 2000}).fun for start in starts)
+
+
+def slip_circle_factor(run_per_rise, depth, strength, strength_below):
+    """Factor of safety of a slope of undrained clay: the least over slip circles of resisting over driving moment (Taylor 1937 with phi_u = 0).
+
+    run_per_rise: 2 of a slope 2:1. depth: of the firm base below the crest, over the height of the slope. strength, strength_below: above and
+    below the level of the toe, over the weight of its height, c_u/(gamma H)."""
+    return _least_over_circles(run_per_rise, depth, lambda angle, x, y, height, radius, x0:
+                               np.trapz(np.where(y > 0, strength, strength_below) * radius**2, angle) / np.trapz(height * (x0 - x), x))
+
+
+def bishop_factor(run_per_rise, depth, cohesion, friction_angle):
+    """Factor of safety of a dry slope by Bishop's simplified method (1955): the least F over slip circles of
+    F = sum of (c + gamma h tan phi)/(cos a + sin a tan phi/F) dx over sum of gamma h sin a dx, where a is the slope of the circle.
+
+    run_per_rise, depth: as of slip_circle_factor(). cohesion: over the weight of the height, c/(gamma H). friction_angle: phi, degrees."""
+    tangent = math.tan(math.radians(friction_angle))
+
+    def factor(angle, x, _, height, __, ___):
+        def excess(value):
+            return value * driving - np.trapz((cohesion + height * tangent) / (np.cos(angle) - np.sin(angle) * tangent / value), x)
+        driving = np.trapz(height * -np.sin(angle), x)
+        least = max(0.05, 1.01 * tangent * np.max(np.tan(angle)))  # where all denominators are positive
+        return optimize.brentq(excess, least, 100.) if excess(least) < 0 < excess(100.) else 1e6
+    return _least_over_circles(run_per_rise, depth, factor)

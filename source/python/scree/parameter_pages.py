@@ -13,7 +13,7 @@ from scree.command import ROOT, Command, program
 
 # Subsections in the order of the index, with their pages where these have another name. Others get a page of their own name.
 PAGES = {"": "top_level", "Mesh": None, "Soil": "bodies", "Boundaries": None, "Bed": None, "Obstacle Wall": "obstacle", "Inflow Torrent": "inflow", "Rain": None,
-         "Contact Base": "contact", "Base motion": None, "Surface load": None, "Water": None, "Settling": None, "Safety": None, "Time step": None,
+         "Contact Base": "contact", "Base motion": None, "Surface load": None, "Water": None, "Settling": None, "Stage": None, "Safety": None, "Time step": None,
          "Transfer": None, "Stabilisation": None, "Output": None, "Probes": None}
 
 UNITS = {"m", "s", "m/s", "m/s^2", "1/s", "Pa", "Pa s", "kg/m^3", "degrees"}
