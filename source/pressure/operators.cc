@@ -62,7 +62,7 @@ namespace scree
 
 
   template <int dim>
-  void PressureOperators<dim>::find_pair(const Mixture<dim> &mixture,
+  void PressureOperators<dim>::integrate(const Mixture<dim> &mixture,
                                          const AtNode &bulk_volume,
                                          const typename FilledPart<dim>::HoldsNode &holds,
                                          const double of_step)
@@ -243,7 +243,7 @@ namespace scree
   template <int dim>
   void PressureOperators<dim>::assemble(const Mixture<dim> &mixture,
                                         const WetNodes<dim> &nodes,
-                                        const BlockAt &pair_at,
+                                        const BlockAt &block_at,
                                         const GroundRows<dim> *of_ground,
                                         const double of_step)
   {
@@ -259,14 +259,18 @@ namespace scree
     nodes.for_occupied([&](const unsigned int node) {
       if (!flow.is_active_at(node))
         return;
-      const DragBlock<dim> pair = pair_at(node);
+      const DragBlock<dim> pair = block_at(node);
       reached.push_back({ node,
                           nodes.porosity(node),
-                          drag_mobility(pair.soil_mass, pair.water_mass, pair.drag),
+                          scree::inverse_masses(pair.soil_mass, pair.water_mass, pair.drag),
                           pair.is_held() ? unsigned(held.size()) : Node::free });
       if (pair.is_held())
         held.push_back(pair);
     });
+    without_mass.clear();
+    for (const unsigned int node : flow.active_nodes())
+      if (nodes.is_empty(node))
+        without_mass.push_back(node);
     const auto look_for_grains = [&](const unsigned int node) {
       if (nodes.has_soil(node) && nodes.has_water(node) && nodes.pores[node][Pores::grain_fraction] <= 0.)
         without_grains.push_back(node);
@@ -319,8 +323,8 @@ namespace scree
   {
     if (node.held != Node::free)
       return held[node.held].solve(impulses);
-    return { node.mobility.soil * impulses.soil + node.mobility.other * impulses.water,
-             node.mobility.other * impulses.soil + node.mobility.water * impulses.water };
+    return { node.inverse.soil * impulses.soil + node.inverse.other * impulses.water,
+             node.inverse.other * impulses.soil + node.inverse.water * impulses.water };
   }
 
 
@@ -364,6 +368,8 @@ namespace scree
   {
     for (const Node &node : reached)
       write(node, flow[node.node]);
+    for (const unsigned int node : without_mass)
+      std::fill_n(flow[node], 2 * dim, 0.);
     flow.update_ghosts();
   }
 
@@ -398,7 +404,7 @@ namespace scree
     surface.extend(source.pressures, full);
     find_forces(full, nullptr, &source.tractions); // -(B^T p + N^T t)
     find_flow([&](const Node &node, double *of_node) {
-      const bool has_soil              = node.mobility.soil > 0.;
+      const bool has_soil              = node.inverse.soil > 0.;
       const SoilAndWater<dim> impulses = -time_step * forces_of_flow<dim>(of_node, node.porosity, has_soil);
       write_flow(solve(node, impulses), node.porosity, has_soil, of_node); // A^-1
     });
@@ -418,7 +424,7 @@ namespace scree
   {
     clear_flow();
     find_flow([&](const Node &node, double *of_node) {
-      write_flow(nodes.velocities(node.node), node.porosity, node.mobility.soil > 0., of_node);
+      write_flow(nodes.velocities(node.node), node.porosity, node.inverse.soil > 0., of_node);
     });
     find_divergence();
     for (const auto &cell : part.cells())
@@ -434,15 +440,15 @@ namespace scree
   {
     constexpr unsigned int n_vertices = FilledPart<dim>::n_vertices;
     clear_flow();
-    find_flow([&](const Node &node, double *mobilities) { // of u at the nodes
-      const bool has_soil = node.mobility.soil > 0.;
+    find_flow([&](const Node &node, double *responses) { // of u at the nodes
+      const bool has_soil = node.inverse.soil > 0.;
       for (unsigned int c = 0; c < dim; ++c)
         {
           std::array<double, 2 * dim> response{};
           response[c]                      = time_step; // a force on u along the axis
           const SoilAndWater<dim> impulses = forces_of_flow<dim>(response.data(), node.porosity, has_soil);
           write_flow(solve(node, impulses), node.porosity, has_soil, response.data());
-          mobilities[c] = response[c];
+          responses[c] = response[c];
         }
     });
     surface.clear(sums);
@@ -462,12 +468,12 @@ namespace scree
 
 
   template <int dim>
-  const FlowField<dim> &PressureOperators<dim>::mobilities()
+  const FlowField<dim> &PressureOperators<dim>::inverse_masses()
   {
     clear_flow();
     find_flow([&](const Node &node, double *of_node) {
-      of_node[unsigned(Phase::soil)]  = time_step * node.mobility.soil;
-      of_node[unsigned(Phase::water)] = time_step * node.mobility.water;
+      of_node[unsigned(Phase::soil)]  = node.inverse.soil;
+      of_node[unsigned(Phase::water)] = node.inverse.water;
     });
     return flow;
   }
