@@ -274,13 +274,13 @@ namespace scree
       if (body.material.law != "Mohr-Coulomb")
         return;
       const auto &law = body.material.of<MohrCoulombParameters>();
-      if (law.cohesion > 0. && law.tension_cut_off == 0.)
+      if (law.cohesion > 0. && law.tension_cut_off == 0. && law.cut_off != "auto")
         remarks.push_back(
             "Unusual value: " +
             entry_message({ body.material.path(body.name), "Tension cut-off", "0" },
                           "with cohesion, here " + number_text(law.cohesion) +
-                              " Pa, soil in water opens in small waves, and the suction of the pores slows it. Write a "
-                              "cut-off above 0, such as the cohesion."));
+                              " Pa, soil in water opens as soon as it shears, and the suction of the pores slows it. "
+                              "Write auto, or a cut-off above 0, such as the cohesion."));
     }
 
 

@@ -213,6 +213,9 @@ namespace scree
         take_box_from_raster();
         take_unit_weights();
         check_stages();
+        for (const BodyParameters &body : bodies)
+          if (body.material.law == "Mohr-Coulomb")
+            body.material.of<MohrCoulombParameters>().choose_cut_off(body.material.path(body.name), has_water);
         check_case(*this);
         map_system = system_of_maps(*this);
         read_maps();

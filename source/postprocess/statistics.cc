@@ -347,7 +347,7 @@ namespace scree
                              time_step };
     if (BalanceStart<dim> &start = history.start; !start.is_known)
       {
-        start.least_averaging_work      = std::min(0., totals.material.averaging_work);
+        start.begin(0., 0., totals.material.averaging_work);
         const BalanceState<dim> balance = now.balance();
         start.momentum                  = balance.momentum() - now.totals.impulse();
         start.energy                    = balance.kept_energy();

@@ -54,55 +54,52 @@ namespace scree
   template <int dim>
   unsigned int FilledPart<dim>::add_integrals(const CubicWeights<dim> &part, const OpenKnots open)
   {
-    const unsigned int begin = all_integrals.size();
-    all_integrals.resize(begin + (dim * n_vertices + 1) * n_rows, NodeRow{});
-    NodeRow *integrals = &all_integrals[begin];
+    const unsigned int number = all_volumes.size() / n_rows;
+    all_volumes.resize((number + 1) * n_rows, NodeRow{});
+    divergences.resize((number + 1) * grid.n_nodes_per_cell() * dim, VertexRow<dim>{});
     with_nodes_1d(grid, [&](auto n) {
-      constexpr unsigned int n_1d = CubicWeights<dim>::n_1d, rows_of_cell = RowFactors<dim, n>::n_rows,
-                             n_row_hats = n_vertices / 2;
-      const Point<dim> origin;
+      constexpr unsigned int n_1d = CubicWeights<dim>::n_1d, rows_of_cell = RowFactors<dim, n>::n_rows;
       const auto &points = CubicWeights<dim>::points();
       const double area  = Utilities::fixed_power<dim - 1>(grid.cell_size());
-      // First over the points of the other axes: a lane a point of the first one, of values and of derivatives.
-      NodeRow sums[dim][n_row_hats][rows_of_cell]{};
+      // First over the points of the other axes: of values and of derivatives, by point of the first axis.
+      VertexRow<dim> sums[n_1d][dim][rows_of_cell]{};
+      double volumes[n_1d][rows_of_cell]{};
       for (unsigned int s = 0; s < CubicWeights<dim>::n_points / n_1d; ++s)
         {
-          Point<dim> x = origin;
+          Point<dim> x;
           for (unsigned int a = 1, rest = s; a < dim; ++a, rest /= n_1d)
             x[a] = points[rest % n_1d];
           const RowFactors<dim, n> rows(CellBasis<dim, n>(x, open));
-          const NodeRow weights = load_row(&part.weights[s * n_1d]);
-          for (unsigned int v = 0; v < n_row_hats; ++v)
+          for (unsigned int q = 0; q < n_1d; ++q)
             {
-              const NodeRow hat = weights * GeometryInfo<dim>::d_linear_shape_function(x, 2 * v);
+              const double weight       = part.weights[s * n_1d + q];
+              x[0]                      = points[q];
+              const VertexRow<dim> hats = weight * vertex_values(x);
               for (unsigned int r = 0; r < rows_of_cell; ++r)
                 {
-                  sums[0][v][r] += hat * rows.value[r];
+                  volumes[q][r] += weight * rows.value[r];
+                  sums[q][0][r] += hats * rows.value[r];
                   for (unsigned int c = 1; c < dim; ++c)
-                    sums[c][v][r] += hat * rows.derivative[c - 1][r];
+                    sums[q][c][r] += hats * rows.derivative[c - 1][r];
                 }
             }
         }
       for (unsigned int q = 0; q < n_1d; ++q)
         {
-          const CellBasis<dim, n> basis(origin + points[q] * Point<dim>::unit_vector(0), open);
-          const NodeRow value_x = make_row(basis.value[0]), derivative_x = make_row(basis.derivative[0]);
-          for (unsigned int v = 0; v < n_vertices; ++v)
-            {
-              const double hat         = area * (v % 2 ? points[q] : 1. - points[q]);
-              const NodeRow hat_values = hat * value_x, hat_slopes = hat * derivative_x;
-              for (unsigned int r = 0; r < rows_of_cell; ++r)
-                {
-                  const double value = sums[0][v / 2][r][q];
-                  integrals[v * rows_of_cell + r] += hat_slopes * value;
-                  for (unsigned int c = 1; c < dim; ++c)
-                    integrals[(c * n_vertices + v) * rows_of_cell + r] += hat_values * sums[c][v / 2][r][q];
-                  integrals[dim * n_vertices * rows_of_cell + r] += hat_values * (grid.cell_size() * value);
-                }
-            }
+          const CellBasis<dim, n> basis(points[q] * Point<dim>::unit_vector(0), open);
+          VertexRow<dim> *of_node = &divergences[number * grid.n_nodes_per_cell() * dim];
+          for (unsigned int r = 0; r < rows_of_cell; ++r)
+            for (unsigned int i = 0; i < n; ++i, of_node += dim)
+              {
+                const double value = area * basis.value[0][i];
+                all_volumes[number * n_rows + r][i] += grid.cell_size() * value * volumes[q][r];
+                of_node[0] += area * basis.derivative[0][i] * sums[q][0][r];
+                for (unsigned int c = 1; c < dim; ++c)
+                  of_node[c] += value * sums[q][c][r];
+              }
         }
     });
-    return begin;
+    return number;
   }
 
 
@@ -117,8 +114,9 @@ namespace scree
       centre += part.hats[v] / part.fraction * GeometryInfo<dim>::unit_cell_vertex(v);
     with_water.push_back({ cell, record, integrals, part.fraction, {}, {} });
     for (unsigned int v = 0; v < n_vertices; ++v)
-      with_water.back().hat_slopes[v] =
-          GeometryInfo<dim>::d_linear_shape_function_gradient(centre, v) / grid.cell_size();
+      for (unsigned int c = 0; c < dim; ++c)
+        with_water.back().hat_slopes[c][v] =
+            GeometryInfo<dim>::d_linear_shape_function_gradient(centre, v)[c] / grid.cell_size();
   }
 
 
@@ -170,8 +168,7 @@ namespace scree
       return hats;
     with_nodes_1d(grid, [&](auto n) {
       static const QWitherdenVincentSimplex<dim - 1> rule(4);
-      constexpr unsigned int rows_of_cell = RowFactors<dim, n>::n_rows;
-      NodeRow sums[n_vertices][rows_of_cell]{};
+      VertexRow<dim> sums[CellBasis<dim, n>::n_nodes]{}, sum_of_hats{};
       for (const SimplexFace<dim> &part_of_face : wet)
         {
           const double area = area_of<dim>(part_of_face).norm() * Utilities::fixed_power<dim - 1>(grid.cell_size());
@@ -181,20 +178,18 @@ namespace scree
           visit_rule<dim>(rule, corners, [&](const Point<dim> &x, const double part) {
             const CellBasis<dim, n> basis(x, open);
             const RowFactors<dim, n> rows(basis);
-            const NodeRow value_x = make_row(basis.value[0]);
-            for (unsigned int v = 0; v < n_vertices; ++v)
-              {
-                const double hat = part * area * GeometryInfo<dim>::d_linear_shape_function(x, v);
-                hats[v] += hat;
-                for (unsigned int r = 0; r < rows_of_cell; ++r)
-                  sums[v][r] += value_x * (hat * rows.value[r]);
-              }
+            const VertexRow<dim> of_point = part * area * vertex_values(x);
+            sum_of_hats += of_point;
+            for (unsigned int i = 0; i < CellBasis<dim, n>::n_nodes; ++i)
+              sums[i] += rows.value[i / n] * basis.value[0][i % n] * of_point;
           });
         }
-      for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int v = 0; v < n_vertices; ++v)
-          for (unsigned int r = 0; r < rows_of_cell; ++r)
-            all_integrals[integrals + (c * n_vertices + v) * rows_of_cell + r] -= normal[c] * sums[v][r];
+      VertexRow<dim> *of_node = &divergences[integrals * grid.n_nodes_per_cell() * dim];
+      for (const VertexRow<dim> &sum : sums)
+        for (unsigned int c = 0; c < dim; ++c)
+          *of_node++ -= normal[c] * sum;
+      for (unsigned int v = 0; v < n_vertices; ++v)
+        hats[v] = sum_of_hats[v];
     });
     return hats;
   }
@@ -247,7 +242,8 @@ namespace scree
   {
     constexpr double smallest = 1e-9; // fraction of a cell
     with_water.clear();
-    all_integrals.resize(end_of_whole);
+    divergences.resize(integrals_of_whole.size() * grid.n_nodes_per_cell() * dim);
+    all_volumes.resize(integrals_of_whole.size() * n_rows);
     AtVertices filled;
     filled.fill(1.);
     const auto kind_of = [&](const unsigned int cell) {
@@ -261,7 +257,6 @@ namespace scree
           add_box(unit_cube, kind >> 2 * dim, filled, open, integrals);
           integrals_of_whole[kind] = integrals;
         }
-    end_of_whole = all_integrals.size();
     for (unsigned int record = 0; record < mixture.cells().size(); ++record)
       {
         const MixtureCell<dim> &cell = mixture.cells()[record];

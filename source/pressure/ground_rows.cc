@@ -99,7 +99,7 @@ namespace scree
 
 
   template <int dim>
-  void GroundRows<dim>::set_mobilities(const FlowField<dim> &mobilities)
+  void GroundRows<dim>::set_responses(const FlowField<dim> &inverse_masses, const double time_step)
   {
     const unsigned int n_nodes = grid.n_nodes_per_cell();
     unsigned int n_numbers     = 0;
@@ -116,7 +116,7 @@ namespace scree
             if (number == dealii::numbers::invalid_unsigned_int)
               number = n_numbers++;
             corners.push_back(number);
-            responses.push_back(weight(k, i) * mobilities[node][phase]);
+            responses.push_back(weight(k, i) * time_step * inverse_masses[node][phase]);
             all[k].diagonal += weight(k, i) * responses.back();
           }
       }

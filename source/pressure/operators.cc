@@ -10,20 +10,23 @@ namespace scree
 
   namespace
   {
-    /// `dim` components of the nodes of a cell, from one on, in rows.
-    template <int dim, int n>
-    using Rows = NodeRow[dim][RowFactors<dim, n>::n_rows];
-
-    template <int dim, int n>
-    void read(const FlowField<dim> &field, const unsigned int *nodes, const unsigned int first, Rows<dim, n> &rows)
+    /// Sums over the vertices of `dim` numbers, in a row; the other lanes are 0.
+    template <int dim>
+    DEAL_II_ALWAYS_INLINE inline NodeRow sums_over_vertices(const std::array<VertexRow<dim>, dim> &numbers)
     {
-      for (unsigned int r = 0; r < RowFactors<dim, n>::n_rows; ++r)
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            rows[c][r] = NodeRow{};
-            for (unsigned int i = 0; i < n; ++i)
-              rows[c][r][i] = field[nodes[r * n + i]][first + c];
-          }
+      const NodeRow none{};
+      NodeRow rows[3]{};
+      for (unsigned int c = 0; c < dim; ++c)
+        if constexpr (dim == 2)
+          rows[c] = numbers[c];
+        else
+          rows[c] = __builtin_shufflevector(numbers[c], numbers[c], 0, 1, 2, 3) +
+                    __builtin_shufflevector(numbers[c], numbers[c], 4, 5, 6, 7);
+      const NodeRow a = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6) +
+                        __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7),
+                    b = __builtin_shufflevector(rows[2], none, 0, 4, 2, 6) +
+                        __builtin_shufflevector(rows[2], none, 1, 5, 3, 7);
+      return __builtin_shufflevector(a, b, 0, 1, 4, 5) + __builtin_shufflevector(a, b, 2, 3, 6, 7);
     }
   } // namespace
 
@@ -59,7 +62,7 @@ namespace scree
 
 
   template <int dim>
-  void PressureOperators<dim>::find_pair(const Mixture<dim> &mixture,
+  void PressureOperators<dim>::integrate(const Mixture<dim> &mixture,
                                          const AtNode &bulk_volume,
                                          const typename FilledPart<dim>::HoldsNode &holds,
                                          const double of_step)
@@ -146,30 +149,28 @@ namespace scree
   void PressureOperators<dim>::add_divergence(const FlowField<dim> &of_nodes, VertexVector &result) const
   {
     with_nodes_1d(grid, [&](auto n) {
-      constexpr unsigned int n_rows = RowFactors<dim, n>::n_rows;
-      const NodeRow *of_moments     = moments.data();
+      const NodeRow *of_moments = moments.data();
       for (const auto &cell : part.cells())
         {
-          const unsigned int *nodes = grid.nodes(cell.cell);
-          Rows<dim, n> mixture, discharge;
-          read<dim, n>(of_nodes, nodes, 0, mixture);
-          read<dim, n>(of_nodes, nodes, dim, discharge);
-          NodeRow drift[dim] = {};
-          for (unsigned int r = 0; r < n_rows; ++r, ++of_moments)
-            for (unsigned int c = 0; c < dim; ++c)
-              drift[c] += *of_moments * discharge[c][r];
+          const unsigned int *node        = grid.nodes(cell.cell);
+          const VertexRow<dim> *integrals = part.divergence(cell);
+          std::array<VertexRow<dim>, dim> sums_of_axes{};
+          std::array<double, dim> drift{};
+          for (unsigned int r = 0; r < RowFactors<dim, n>::n_rows; ++r, ++of_moments)
+            for (unsigned int i = 0; i < n; ++i, ++node, integrals += dim)
+              {
+                const double *of_node = of_nodes[*node];
+                for (unsigned int c = 0; c < dim; ++c)
+                  {
+                    sums_of_axes[c] -= integrals[c] * of_node[c];
+                    drift[c] += (*of_moments)[i] * of_node[dim + c];
+                  }
+              }
+          VertexRow<dim> divergence{};
+          for (unsigned int c = 0; c < dim; ++c)
+            divergence += sums_of_axes[c] + cell.hat_slopes[c] * drift[c];
           for (unsigned int v = 0; v < FilledPart<dim>::n_vertices; ++v)
-            {
-              NodeRow divergence{};
-              for (unsigned int c = 0; c < dim; ++c)
-                {
-                  const NodeRow *integrals = part.divergence(cell, c, v);
-                  for (unsigned int r = 0; r < n_rows; ++r)
-                    divergence -= integrals[r] * mixture[c][r];
-                  divergence += cell.hat_slopes[v][c] * drift[c];
-                }
-              result.local_element(vertices.nodes(cell.cell)[v]) += sum(divergence);
-            }
+            result.local_element(vertices.nodes(cell.cell)[v]) += divergence[v];
         }
     });
   }
@@ -183,31 +184,36 @@ namespace scree
       const NodeRow *of_moments     = moments.data();
       for (const auto &cell : part.cells())
         {
-          const unsigned int *nodes = grid.nodes(cell.cell);
-          Rows<dim, n> of_mixture{};
-          Tensor<1, dim> slope; // at the centre of the part
+          VertexRow<dim> p;
+          bool acts = false;
           for (unsigned int v = 0; v < FilledPart<dim>::n_vertices; ++v)
             {
-              const double p = pressure.local_element(vertices.nodes(cell.cell)[v]);
-              if (p == 0.)
-                continue; // dry, or held in a step of the solver
-              slope += p * cell.hat_slopes[v];
-              for (unsigned int c = 0; c < dim; ++c)
-                {
-                  const NodeRow *integrals = part.divergence(cell, c, v);
-                  for (unsigned int r = 0; r < n_rows; ++r)
-                    of_mixture[c][r] += p * integrals[r];
-                }
+              p[v] = pressure.local_element(vertices.nodes(cell.cell)[v]);
+              acts = acts || p[v] != 0.;
             }
+          if (!acts) // dry, or held in a step of the solver
+            {
+              of_moments += n_rows;
+              continue;
+            }
+          const unsigned int *node        = grid.nodes(cell.cell);
+          const VertexRow<dim> *integrals = part.divergence(cell);
+          std::array<VertexRow<dim>, dim> products;
+          for (unsigned int c = 0; c < dim; ++c)
+            products[c] = p * cell.hat_slopes[c];
+          const NodeRow slope = sums_over_vertices<dim>(products); // at the centre of the part
           for (unsigned int r = 0; r < n_rows; ++r, ++of_moments)
-            for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int i = 0; i < n; ++i, ++node, integrals += dim)
               {
-                double *force = forces[nodes[r * n + i]];
                 for (unsigned int c = 0; c < dim; ++c)
-                  {
-                    force[c] += of_mixture[c][r][i];
-                    force[dim + c] -= (*of_moments)[i] * slope[c];
-                  }
+                  products[c] = p * integrals[c];
+                const NodeRow of_mixture = sums_over_vertices<dim>(products), of_flux = (*of_moments)[i] * slope;
+                double *force = forces[*node];
+                add_row(dim == 2 ? __builtin_shufflevector(of_mixture, -of_flux, 0, 1, 4, 5)
+                                 : __builtin_shufflevector(of_mixture, -of_flux, 0, 1, 2, 4),
+                        force);
+                for (unsigned int c = 1; dim == 3 && c < dim; ++c)
+                  force[dim + c] -= of_flux[c];
               }
         }
     });
@@ -221,8 +227,9 @@ namespace scree
     for (const auto &cell : part.cells())
       {
         Tensor<1, dim> slope;
-        for (unsigned int v = 0; v < FilledPart<dim>::n_vertices; ++v)
-          slope += pressure.local_element(vertices.nodes(cell.cell)[v]) * cell.hat_slopes[v];
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int v = 0; v < FilledPart<dim>::n_vertices; ++v)
+            slope[c] += pressure.local_element(vertices.nodes(cell.cell)[v]) * cell.hat_slopes[c][v];
         if (slope.norm_square() == 0.)
           continue;
         const NodeRow *volumes = part.volumes(cell);
@@ -236,7 +243,7 @@ namespace scree
   template <int dim>
   void PressureOperators<dim>::assemble(const Mixture<dim> &mixture,
                                         const WetNodes<dim> &nodes,
-                                        const BlockAt &pair_at,
+                                        const BlockAt &block_at,
                                         const GroundRows<dim> *of_ground,
                                         const double of_step)
   {
@@ -252,14 +259,18 @@ namespace scree
     nodes.for_occupied([&](const unsigned int node) {
       if (!flow.is_active_at(node))
         return;
-      const DragBlock<dim> pair = pair_at(node);
+      const DragBlock<dim> pair = block_at(node);
       reached.push_back({ node,
                           nodes.porosity(node),
-                          drag_mobility(pair.soil_mass, pair.water_mass, pair.drag),
+                          scree::inverse_masses(pair.soil_mass, pair.water_mass, pair.drag),
                           pair.is_held() ? unsigned(held.size()) : Node::free });
       if (pair.is_held())
         held.push_back(pair);
     });
+    without_mass.clear();
+    for (const unsigned int node : flow.active_nodes())
+      if (nodes.is_empty(node))
+        without_mass.push_back(node);
     const auto look_for_grains = [&](const unsigned int node) {
       if (nodes.has_soil(node) && nodes.has_water(node) && nodes.pores[node][Pores::grain_fraction] <= 0.)
         without_grains.push_back(node);
@@ -312,8 +323,8 @@ namespace scree
   {
     if (node.held != Node::free)
       return held[node.held].solve(impulses);
-    return { node.mobility.soil * impulses.soil + node.mobility.other * impulses.water,
-             node.mobility.other * impulses.soil + node.mobility.water * impulses.water };
+    return { node.inverse.soil * impulses.soil + node.inverse.other * impulses.water,
+             node.inverse.other * impulses.soil + node.inverse.water * impulses.water };
   }
 
 
@@ -357,6 +368,8 @@ namespace scree
   {
     for (const Node &node : reached)
       write(node, flow[node.node]);
+    for (const unsigned int node : without_mass)
+      std::fill_n(flow[node], 2 * dim, 0.);
     flow.update_ghosts();
   }
 
@@ -391,7 +404,7 @@ namespace scree
     surface.extend(source.pressures, full);
     find_forces(full, nullptr, &source.tractions); // -(B^T p + N^T t)
     find_flow([&](const Node &node, double *of_node) {
-      const bool has_soil              = node.mobility.soil > 0.;
+      const bool has_soil              = node.inverse.soil > 0.;
       const SoilAndWater<dim> impulses = -time_step * forces_of_flow<dim>(of_node, node.porosity, has_soil);
       write_flow(solve(node, impulses), node.porosity, has_soil, of_node); // A^-1
     });
@@ -411,7 +424,7 @@ namespace scree
   {
     clear_flow();
     find_flow([&](const Node &node, double *of_node) {
-      write_flow(nodes.velocities(node.node), node.porosity, node.mobility.soil > 0., of_node);
+      write_flow(nodes.velocities(node.node), node.porosity, node.inverse.soil > 0., of_node);
     });
     find_divergence();
     for (const auto &cell : part.cells())
@@ -427,39 +440,40 @@ namespace scree
   {
     constexpr unsigned int n_vertices = FilledPart<dim>::n_vertices;
     clear_flow();
-    find_flow([&](const Node &node, double *mobilities) { // of u at the nodes
-      const bool has_soil = node.mobility.soil > 0.;
+    find_flow([&](const Node &node, double *responses) { // of u at the nodes
+      const bool has_soil = node.inverse.soil > 0.;
       for (unsigned int c = 0; c < dim; ++c)
         {
           std::array<double, 2 * dim> response{};
           response[c]                      = time_step; // a force on u along the axis
           const SoilAndWater<dim> impulses = forces_of_flow<dim>(response.data(), node.porosity, has_soil);
           write_flow(solve(node, impulses), node.porosity, has_soil, response.data());
-          mobilities[c] = response[c];
+          responses[c] = response[c];
         }
     });
     surface.clear(sums);
-    const unsigned int n = grid.n_nodes_1d();
-    for (const auto &cell : part.cells())
-      for (unsigned int v = 0; v < n_vertices; ++v)
-        for (unsigned int c = 0; c < dim; ++c)
-          for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
-            sums.local_element(vertices.nodes(cell.cell)[v]) +=
-                std::pow(part.divergence(cell, c, v)[i / n][i % n], 2) * flow[grid.nodes(cell.cell)[i]][c];
     for (unsigned int k = 0; k < part.cells().size(); ++k)
-      for (unsigned int v = 0; v < n_vertices; ++v)
-        sums.local_element(vertices.nodes(part.cells()[k].cell)[v]) += stiffness[k] * (n_vertices - dim - 1);
+      {
+        const auto &cell                = part.cells()[k];
+        const VertexRow<dim> *integrals = part.divergence(cell);
+        VertexRow<dim> sum              = VertexRow<dim>{} + stiffness[k] * (n_vertices - dim - 1);
+        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i, integrals += dim)
+          for (unsigned int c = 0; c < dim; ++c)
+            sum += integrals[c] * integrals[c] * flow[grid.nodes(cell.cell)[i]][c];
+        for (unsigned int v = 0; v < n_vertices; ++v)
+          sums.local_element(vertices.nodes(cell.cell)[v]) += sum[v];
+      }
     surface.restrict_to_unknown(sums, target, FreeSurface<dim>::Shares::squared);
   }
 
 
   template <int dim>
-  const FlowField<dim> &PressureOperators<dim>::mobilities()
+  const FlowField<dim> &PressureOperators<dim>::inverse_masses()
   {
     clear_flow();
     find_flow([&](const Node &node, double *of_node) {
-      of_node[unsigned(Phase::soil)]  = time_step * node.mobility.soil;
-      of_node[unsigned(Phase::water)] = time_step * node.mobility.water;
+      of_node[unsigned(Phase::soil)]  = node.inverse.soil;
+      of_node[unsigned(Phase::water)] = node.inverse.water;
     });
     return flow;
   }

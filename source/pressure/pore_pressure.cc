@@ -96,7 +96,7 @@ namespace scree
   template <int dim>
   void PorePressure<dim>::solve(Mixture<dim> &mixture,
                                 const WetNodes<dim> &nodes,
-                                const typename PressureOperators<dim>::BlockAt &pair_at,
+                                const typename PressureOperators<dim>::BlockAt &block_at,
                                 GroundRows<dim> *rows,
                                 const bool holds_pressure,
                                 const double time_step,
@@ -106,7 +106,7 @@ namespace scree
     {
       const TimedPart timed(timer, TimerSection::pressure_system);
       find_mobilities(mixture, time_step);
-      operators.assemble(mixture, nodes, pair_at, rows, time_step);
+      operators.assemble(mixture, nodes, block_at, rows, time_step);
       operators.find_source(nodes, pressure, source);
       const double compressibility = bulk_modulus > 0 ? 1. / (bulk_modulus * time_step) : 0.;
       preconditioner.assemble(mixture, time_step, compressibility);
@@ -118,7 +118,7 @@ namespace scree
           diagonal[i] += storage[i];
         }
       if (rows)
-        rows->set_mobilities(operators.mobilities());
+        rows->set_responses(operators.inverse_masses(), time_step);
     }
     const TimedPart timed(timer, TimerSection::pressure_solve);
     constexpr double alone = 0.1; // of the tolerance: rows beside a held pressure decide on creep
@@ -172,7 +172,7 @@ namespace scree
       {
         choose_friction();
         program.find_residual();
-        converge(tolerance, balance);
+        report.made_preconditioner = converge(tolerance, balance).made_preconditioner || report.made_preconditioner;
       }
     surface.extend(program.solution.pressures, solution);
     return report;
@@ -403,11 +403,11 @@ namespace scree
           own.emplace_back(place_of_vertex(grid, vertices, vertex), values.local_element(vertex));
       return join(grid.communicator(), own);
     };
-    state.change                    = numbers_of(change);
-    state.potential                 = numbers_of(potential);
-    state.preconditioner            = own_state;
-    state.preconditioner.mobilities = join(grid.communicator(), own_state.mobilities);
-    state.preconditioner.diagonal   = join(grid.communicator(), own_state.diagonal);
+    state.change                      = numbers_of(change);
+    state.potential                   = numbers_of(potential);
+    state.preconditioner              = own_state;
+    state.preconditioner.conductances = join(grid.communicator(), own_state.conductances);
+    state.preconditioner.diagonal     = join(grid.communicator(), own_state.diagonal);
   }
 
 
@@ -422,9 +422,10 @@ namespace scree
     };
     set(state.change, change);
     set(state.potential, potential);
+    if (state.preconditioner.is_worn)
+      return; // The next solve makes another one.
     own_state = state.preconditioner;
-    if (!own_state.is_worn)
-      preconditioner.load(own_state);
+    preconditioner.load(own_state);
   }
 
   template class PorePressure<2>;

@@ -111,33 +111,33 @@ namespace scree
   {
     const double scale =
         time_step * Utilities::fixed_power<dim>(grid.cell_size()) / (grid.cell_size() * grid.cell_size());
-    bool is_anchored        = storage > 0.; // something beside differences of pressure matters
-    double largest_mobility = 0;
+    bool is_anchored           = storage > 0.; // something beside differences of pressure matters
+    double largest_conductance = 0;
     diagonals.clear();
     cells.clear();
     for (const MixtureCell<dim> &mixed : mixture.cells())
       if (mixed.water_volume > 0)
         {
-          const double mobility = scale * mixed.mobility;
-          cells.push_back({ mixed.cell, mobility });
+          const double conductance = scale * mixed.mobility;
+          cells.push_back({ mixed.cell, conductance });
           diagonals.activate_cell(mixed.cell);
-          largest_mobility        = std::max(largest_mobility, mobility);
+          largest_conductance     = std::max(largest_conductance, conductance);
           const unsigned int *all = vertices.nodes(mixed.cell);
           for (unsigned int v = 0; v < n_vertices; ++v)
             {
               is_anchored = is_anchored || surface.kind(all[v]) != PressureDofType::unknown;
               if (surface.kind(all[v]) != PressureDofType::unknown)
                 continue;
-              diagonals[all[v]][whole] += mobility * laplacian[v][v];
+              diagonals[all[v]][whole] += conductance * laplacian[v][v];
               // A vertex beside the surface follows the unknown one; this keeps the matrix symmetric.
               for (unsigned int w = 0; w < n_vertices; ++w)
                 if (surface.kind(all[w]) == PressureDofType::surface)
-                  diagonals[all[v]][added] += mobility * laplacian[v][w] * surface.ratio(all[w], all[v]);
+                  diagonals[all[v]][added] += conductance * laplacian[v][w] * surface.ratio(all[w], all[v]);
             }
         }
     diagonals.add_contributions();
     set_unknowns(storage);
-    const std::vector<double> own{ largest_mobility, double(is_anchored) };
+    const std::vector<double> own{ largest_conductance, double(is_anchored) };
     std::vector<double> all_ranks(2);
     Utilities::MPI::max(own, grid.communicator(), all_ranks);
     AssertThrow(all_ranks[0] == 0. || all_ranks[1] == 1.,
@@ -167,10 +167,10 @@ namespace scree
   void PressurePreconditioner<dim>::make(PreconditionerState &state)
   {
     const FineCells<dim> &fine_cells = grid.fine_cells();
-    state.mobilities.clear();
+    state.conductances.clear();
     state.diagonal.clear();
     for (const Cell &cell : cells)
-      state.mobilities.emplace_back(fine_cells.cells()[fine_cells.of_index(cell.cell)].number, cell.mobility);
+      state.conductances.emplace_back(fine_cells.cells()[fine_cells.of_index(cell.cell)].number, cell.conductance);
     for (const unsigned int vertex : unknowns)
       state.diagonal.emplace_back(place_of_vertex(grid, vertices, vertex), diagonals[vertex][added]);
 
@@ -211,7 +211,7 @@ namespace scree
     for (const Cell &cell : cells)
       for_unknowns(cell, [&](const unsigned int v, const auto row) {
         for_unknowns(cell, [&](const unsigned int w, const auto column) {
-          matrix.add(row, column, cell.mobility * laplacian[v][w]);
+          matrix.add(row, column, cell.conductance * laplacian[v][w]);
         });
       });
     for (unsigned int k = 0; k < unknowns.size(); ++k)
@@ -234,10 +234,10 @@ namespace scree
       if (grid.fine_cells().is_owned(cell))
         own_cells[cell.number] = cell.index;
     reinit();
-    for (const auto &[place, mobility] : state.mobilities)
+    for (const auto &[place, conductance] : state.conductances)
       if (const auto cell = own_cells.find(place); cell != own_cells.end())
         {
-          cells.push_back({ cell->second, mobility });
+          cells.push_back({ cell->second, conductance });
           diagonals.activate_cell(cell->second);
         }
     const auto own_vertices = vertices_by_place(grid, vertices);

@@ -89,7 +89,7 @@ namespace scree
 
 
   template <int dim>
-  void TwoPhaseScheme<dim>::find_pair(const double time_step)
+  void TwoPhaseScheme<dim>::prepare_pressure(const double time_step)
   {
     const TimedPart part(timer, TimerSection::nodes);
     const auto bulk_volume = [&](const unsigned int node) {
@@ -100,8 +100,8 @@ namespace scree
       return wall_gaps.is_closed_to_water(node, face);
     };
     pressure.locate(mixture);
-    operators.find_pair(mixture, bulk_volume, holds, time_step);
-    momentum.find_flux_inertia(time_step); // n_i takes the place of the volume of grains, which find_pair() reads
+    operators.integrate(mixture, bulk_volume, holds, time_step);
+    momentum.find_flux_inertia(time_step); // n_i takes the place of the volume of grains, which integrate() reads
     momentum.add_pressure_forces(pressure.impulses(time_step), operators, time_step);
   }
 
@@ -110,8 +110,8 @@ namespace scree
   void TwoPhaseScheme<dim>::solve(const double time_step, StepReport<dim> &report)
   {
     Budget<dim> &budget = report.balance;
-    sum_at_nodes(time_step); // 1. masses, momenta and forces
-    find_pair(time_step);    // 2. d, T, p^n and B; of 1 n_i and C_i, of 3 the force of p^n
+    sum_at_nodes(time_step);     // 1. masses, momenta and forces
+    prepare_pressure(time_step); // 2. d, T, p^n and B; of 1 n_i and C_i, of 3 the force of p^n
     if (water_is_held)
       load_soil_with_water();
     momentum.predict(time_step, transfer.kept(time_step), budget); // 3. A v* = m v + dt (f + m g - B^T p^n)
@@ -127,9 +127,9 @@ namespace scree
   template <int dim>
   void TwoPhaseScheme<dim>::find_pressure(const double time_step, Budget<dim> &budget)
   {
-    const auto pair_at    = [this](const unsigned int node) { return momentum.pressed_block_at(node); };
+    const auto block_at   = [this](const unsigned int node) { return momentum.pressed_block_at(node); };
     GroundRows<dim> *rows = contact.find_rows(nodes, mixture, surface, time_step);
-    pressure.solve(mixture, nodes, pair_at, rows, water_is_held, time_step, budget);
+    pressure.solve(mixture, nodes, block_at, rows, water_is_held, time_step, budget);
   }
 
 

@@ -24,8 +24,7 @@ namespace scree
     const Batch zero = simd::broadcast<Batch>(0.), one = simd::broadcast<Batch>(1.);
     Batch volume = zero, unloaded = zero;
     for_each_batch(points.n_points, [&](const BatchIndices &indices, const unsigned int n) {
-      Batch trace;
-      const Batch ratio = is_modified ? simd::sqrt<Batch>(elastic_square_under_stress(points, indices, trace)) : one;
+      const Batch ratio = is_modified ? simd::sqrt<Batch>(elastic_square_under_stress(points, indices).first) : one;
       const auto is_averaged = simd::first_lanes(n) & (ratio > 0.);
       const Batch own        = load(volumes + indices[0]);
       volume += simd::select<Batch>(is_averaged, own * load(changes + indices[0]), zero);

@@ -48,29 +48,6 @@ namespace scree
       const Batch twice = 0.5 * (square - trace * trace * (1. / 3.));
       return simd::sqrt<Batch>(simd::max<Batch>(twice, simd::broadcast<Batch>(0.)));
     }
-
-    /// Lanes v to v + 3 of rows k to k + 3: a row for each lane.
-    template <typename Rows>
-    DEAL_II_ALWAYS_INLINE inline std::array<NodeRow, 4>
-    transposed(const Rows &rows, const unsigned int k, [[maybe_unused]] const unsigned int v)
-    {
-      const auto four = [&](const unsigned int i) DEAL_II_ALWAYS_INLINE {
-        const auto &row = rows[k + i];
-        if constexpr (sizeof(row) == sizeof(NodeRow))
-          return row;
-        else
-          return v == 0 ? __builtin_shufflevector(row, row, 0, 1, 2, 3) : __builtin_shufflevector(row, row, 4, 5, 6, 7);
-      };
-      const NodeRow row[4] = { four(0), four(1), four(2), four(3) };
-      const NodeRow a      = __builtin_shufflevector(row[0], row[1], 0, 4, 2, 6);
-      const NodeRow b      = __builtin_shufflevector(row[0], row[1], 1, 5, 3, 7);
-      const NodeRow c      = __builtin_shufflevector(row[2], row[3], 0, 4, 2, 6);
-      const NodeRow d      = __builtin_shufflevector(row[2], row[3], 1, 5, 3, 7);
-      return { { __builtin_shufflevector(a, c, 0, 1, 4, 5),
-                 __builtin_shufflevector(b, d, 0, 1, 4, 5),
-                 __builtin_shufflevector(a, c, 2, 3, 6, 7),
-                 __builtin_shufflevector(b, d, 2, 3, 6, 7) } };
-    }
   } // namespace
 
 
@@ -81,10 +58,9 @@ namespace scree
     // The slots of cells lie one behind the other.
     const auto points = body.material_points(*block.begin);
     for_each_batch(block.n_points, [&](const BatchIndices &indices, const unsigned int) {
-      const unsigned int p = block.first + indices[0];
-      Batch trace;
-      const Batch square    = elastic_square_under_stress(points, indices, trace);
-      const auto has_stress = square > 0.;
+      const unsigned int p       = block.first + indices[0];
+      const auto [square, trace] = elastic_square_under_stress(points, indices);
+      const auto has_stress      = square > 0.;
       const Batch own = 0.5 * simd::log<Batch>(simd::select<Batch>(has_stress, square, simd::broadcast<Batch>(1.)));
       store(simd::select<Batch>(has_stress, own, simd::broadcast<Batch>(std::numeric_limits<double>::quiet_NaN())),
             &elastic_strain[p]);
@@ -140,13 +116,12 @@ namespace scree
     const unsigned int *vertices = grid.vertices().nodes(cell.cell);
 #pragma GCC unroll 4
     for (unsigned int k = 0; k < n_sums; k += 4)
-#pragma GCC unroll 2
-      for (unsigned int v = 0; v < n_vertices; v += 4)
-        {
-          const auto fours = transposed(rows, k, v);
-          for (unsigned int i = 0; i < 4; ++i)
-            add_row(fours[i], sums[vertices[v + i]] + k);
-        }
+      {
+        simd::transpose_fours(&rows[k]);
+#pragma GCC unroll 8
+        for (unsigned int v = 0; v < n_vertices; ++v)
+          add_row(load_row(reinterpret_cast<const double *>(&rows[k + v % 4]) + v / 4 * 4), sums[vertices[v]] + k);
+      }
   }
 
 

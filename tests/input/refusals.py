@@ -42,8 +42,8 @@ QUESTIONED = {
         {**INSTANT, **COULOMB, "Soil/Mohr-Coulomb/Softening strain": 0.1, "Soil/Mohr-Coulomb/Residual friction angle": 20, "Soil/Mohr-Coulomb/Nonlocal length": 0.15},
         ['entry "Nonlocal length" = 0.15: shear bands depend on cells wider than half of it, here 0.1 m. Use cells of at most 0.075 m.']),
     "cohesion without tension in water": (
-        {**INSTANT, **COULOMB, "Soil/Initial porosity": 0.4, "Soil/Mohr-Coulomb/Cohesion": 2e3, "Water/Phreatic surface": 0.5},
-        ['entry "Tension cut-off" = 0: with cohesion, here 2000 Pa, soil in water opens in small waves']),
+        {**INSTANT, **COULOMB, "Soil/Initial porosity": 0.4, "Soil/Mohr-Coulomb/Cohesion": 2e3, "Soil/Mohr-Coulomb/Tension cut-off": 0, "Water/Phreatic surface": 0.5},
+        ['entry "Tension cut-off" = 0: with cohesion, here 2000 Pa, soil in water opens as soon as it shears']),
     "entries of a law that is not chosen": (
         {**INSTANT, **COULOMB, "Soil/Tresca/Undrained strength": "2e4"},
         ['subsection Soil/Tresca, entry "Undrained strength" = 2e4: this entry has no effect, as "Material" is Mohr-Coulomb. Write "Material = Tresca", or']),

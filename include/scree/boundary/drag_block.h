@@ -10,7 +10,7 @@
 namespace scree
 {
   /// What an impulse of 1 N s on a phase does to it, and to the other phase, 1/kg.
-  struct DragMobility
+  struct InverseMasses
   {
     double soil = 0., ///< of the soil, by an impulse on the soil
         water   = 0., ///< of the water, by an impulse on the water
@@ -18,7 +18,7 @@ namespace scree
   };
 
   /// The same of two masses and their drag, kg, that no wall holds; the drag is 0 where a phase is absent.
-  inline DragMobility drag_mobility(const double soil_mass, const double water_mass, const double drag)
+  inline InverseMasses inverse_masses(const double soil_mass, const double water_mass, const double drag)
   {
     if (soil_mass > 0. && water_mass > 0.)
       {

@@ -30,14 +30,14 @@ namespace scree
                                          const double friction_coefficient)
   {
     const dealii::Tensor<1, dim> relative = second.velocity - first.velocity;
-    const double mobility                 = first.inverse_mass + second.inverse_mass;
+    const double inverse_mass             = first.inverse_mass + second.inverse_mass;
     const double across                   = relative * normal;
-    if (mobility == 0. || across >= -approach)
+    if (inverse_mass == 0. || across >= -approach)
       return dealii::Tensor<1, dim>();
-    const double pressing              = (-approach - across) / mobility;
+    const double pressing              = (-approach - across) / inverse_mass;
     const dealii::Tensor<1, dim> along = relative - across * normal;
     return pressing * normal +
-           coulomb_friction<dim>(-along / mobility, available_friction(friction_coefficient, pressing)).impulse;
+           coulomb_friction<dim>(-along / inverse_mass, available_friction(friction_coefficient, pressing)).impulse;
   }
 
 

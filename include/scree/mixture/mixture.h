@@ -229,7 +229,7 @@ namespace scree
         inertia_of_flux = 0; ///< sum m/n_p^2, kg
     double drag_of_flux = 0; ///< sum V/n_p times the resistance of the pores, N s/m
 
-    double mobility = 0; ///< kappa: what a pressure gradient does to the mixture's flow, m^3/kg
+    double mobility = 0; ///< kappa: what a pressure gradient does to the mixture's flow, m^dim/kg
 
     /// @param cell active cell index
     /// @param volume open to soil and water, m^3

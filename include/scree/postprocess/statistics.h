@@ -95,13 +95,15 @@ namespace scree
     bool has_step               = false; ///< whether it has that of the first step
     double least_averaging_work = 0;     ///< least sum since the start, see BalanceState::averaging_energy(), J
 
-    /// Takes the length of the first step, s.
+    /// Takes the length of the first step, s, and the work of the averaging.
     /// @param fall mass times velocity times gravity, W
-    void begin(const double time_step, const double fall)
+    /// @param averaging_work its sum since the start, J
+    void begin(const double time_step, const double fall, const double averaging_work)
     {
       if (is_known && !has_step)
         energy += 0.5 * time_step * fall;
-      has_step = is_known;
+      has_step             = is_known;
+      least_averaging_work = std::min(least_averaging_work, averaging_work);
     }
 
     /// Saves or loads all members (Boost).

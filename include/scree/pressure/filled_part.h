@@ -25,12 +25,12 @@ namespace scree
     /// A cell that water fills or cuts.
     struct Cell
     {
-      unsigned int cell;                                         ///< active cell index
-      unsigned int record;                                       ///< of the mixture
-      unsigned int integrals;                                    ///< where they begin, see divergence() and volumes()
-      double fraction;                                           ///< of the volume of the whole cell
-      std::array<dealii::Tensor<1, dim>, n_vertices> hat_slopes; ///< grad psi_a at the centre of the part, 1/m
-      std::array<double, n_vertices> allowed;                    ///< int psi_a of the flow into the ground, m^dim/s
+      unsigned int cell;                          ///< active cell index
+      unsigned int record;                        ///< of the mixture
+      unsigned int integrals;                     ///< their number, see divergence() and volumes()
+      double fraction;                            ///< of the volume of the whole cell
+      std::array<VertexRow<dim>, dim> hat_slopes; ///< d psi_a/dx_c at the centre of the part, 1/m: by axis, lanes a
+      std::array<double, n_vertices> allowed;     ///< int psi_a of the flow into the ground, m^dim/s
     };
 
     /// All are kept by reference.
@@ -53,23 +53,23 @@ namespace scree
     }
 
     /// Integrals of psi_a d phi_i/dx_c over the part of a cell, less those of psi_a phi_i nu_c over the ground and
-    /// the walls that bound it, m^(dim-1): rows of nodes i, by axis c and vertex a.
-    const NodeRow *divergence(const Cell &cell, const unsigned int axis, const unsigned int vertex) const
+    /// the walls that bound it, m^(dim-1): by node i and axis c, the axes of a node behind each other; lanes a.
+    const VertexRow<dim> *divergence(const Cell &cell) const
     {
-      return &all_integrals[cell.integrals + (axis * n_vertices + vertex) * n_rows];
+      return &divergences[cell.integrals * grid.n_nodes_per_cell() * dim];
     }
 
     /// Integrals of phi_i over the part of a cell, m^dim: rows of nodes.
     const NodeRow *volumes(const Cell &cell) const
     {
-      return &all_integrals[cell.integrals + dim * n_vertices * n_rows];
+      return &all_volumes[cell.integrals * n_rows];
     }
 
     /// Rows of nodes of a cell.
     const unsigned int n_rows;
 
   private:
-    /// Adds the integrals to `all_integrals`; returns where they begin.
+    /// Adds the integrals of a part, without what bounds it; returns their number.
     unsigned int add_integrals(const CubicWeights<dim> &part, const OpenKnots open);
 
     /// Takes a part into the cells.
@@ -86,8 +86,8 @@ namespace scree
     /// Faces of the box with a cell through which nothing flows, or which prescribe a pressure other than 0, as bits.
     unsigned int faces_of_box(const unsigned int cell, const HoldsNode &holds) const;
 
-    /// Takes the flow through the wet part of a face of the unit cell into the `integrals` from there on; returns the
-    /// integrals of the vertices' functions, m^(dim-1).
+    /// Takes the flow through the wet part of a face of the unit cell into the integrals of that number; returns those
+    /// of the vertices' functions, m^(dim-1).
     /// @param normal unit, out of the cell
     AtVertices add_face(const SimplexFace<dim> &face,
                         const dealii::Tensor<1, dim> &normal,
@@ -112,9 +112,9 @@ namespace scree
     const GroundGaps<dim> &gaps;
     const std::vector<Simplex<dim>> unit_cube;
     const CubicWeights<dim> whole;
-    std::map<unsigned int, unsigned int> integrals_of_whole; // at the front of all_integrals, by knots and faces
-    std::size_t end_of_whole = 0;
-    std::vector<NodeRow> all_integrals;
+    std::map<unsigned int, unsigned int> integrals_of_whole; // by knots and faces; they have the first numbers
+    std::vector<VertexRow<dim>> divergences;                 // by number of the integrals
+    std::vector<NodeRow> all_volumes;                        // by number of the integrals
     std::vector<Cell> with_water;
   };
 } // namespace scree

@@ -51,7 +51,7 @@ namespace scree
     bool holds_across = false;       ///< in the current solve: the motion into the ground
     bool holds_along  = false;       ///< that along it, as far as the compliance of its friction lets it
     double compliance = 0.;          ///< flow along the ground over the traction along it, m^dim/(Pa s); 0: sticks
-    double diagonal   = 0.; ///< of dt N A^-1 N^T, as if no walls held the nodes, m^dim/(Pa s); see set_mobilities()
+    double diagonal   = 0.; ///< of dt N A^-1 N^T, as if no walls held the nodes, m^dim/(Pa s); see set_responses()
 
     /// The part of a vector that the ground holds.
     dealii::Tensor<1, dim> held_part(const dealii::Tensor<1, dim> &vector) const
@@ -111,8 +111,8 @@ namespace scree
     void find_flows(const FlowField<dim> &flow, Vectors &result) const;
 
     /// Finds the diagonal of the rows, and what precondition() needs.
-    /// @param mobilities time step over mass of soil (first number of a node) and of water (second), with drag, m/(N s)
-    void set_mobilities(const FlowField<dim> &mobilities);
+    /// @param inverse_masses of a node's soil (first number) and water (second), with drag, 1/kg
+    void set_responses(const FlowField<dim> &inverse_masses, const double time_step);
 
     /// Sets `tractions` to those of one symmetric sweep of Gauss-Seidel over this rank's rows, from 0: an approximate
     /// inverse of dt N A^-1 N^T with the compliances, symmetric and positive, on what the ground holds.

@@ -53,33 +53,33 @@ namespace scree
     void reinit();
 
     /// Finds B of a step whose surface is known. Collective.
-    /// @param volume sum V_p phi_i/n_p of the water at an owned node, m^3
+    /// @param volume sum V_p phi_i/n_p of the water at an owned node, m^dim
     /// @param holds see FilledPart
-    void find_pair(const Mixture<dim> &mixture,
+    void integrate(const Mixture<dim> &mixture,
                    const AtNode &volume,
                    const typename FilledPart<dim>::HoldsNode &holds,
                    const double time_step);
 
-    /// Finds A and H of a step, after find_pair(). Rows must live on.
-    /// @param pair_at A, as the pressure moves soil and water
+    /// Finds A and H of a step, after integrate(). Rows must live on.
+    /// @param block_at A, as the pressure moves soil and water
     /// @param rows of this rank; null: none on any
     void assemble(const Mixture<dim> &mixture,
                   const WetNodes<dim> &nodes,
-                  const BlockAt &pair_at,
+                  const BlockAt &block_at,
                   const GroundRows<dim> *rows,
                   const double time_step);
 
     /// Sets `target` to S times `source`: the flow, m^dim/s, of pressures and of tractions, Pa. Collective.
     void vmult(Vector &target, const Vector &source);
 
-    /// Sets `target` to the diagonal of S at the owned unknowns, m^3/(Pa s), nearly: each cell counts by itself.
+    /// Sets `target` to the diagonal of S at the owned unknowns, m^dim/(Pa s), nearly: each cell counts by itself.
     /// Collective.
     void find_diagonal(std::vector<double> &target);
 
-    /// For GroundRows::set_mobilities(), without walls and with ghosts; to be read before the next call. Collective.
-    const FlowField<dim> &mobilities();
+    /// For GroundRows::set_responses(), without walls and with ghosts; to be read before the next call. Collective.
+    const FlowField<dim> &inverse_masses();
 
-    /// Sets `target` to T^T (B u - c - H p), m^3/s, by owned unknown, with c of the ground that is not yet reached or
+    /// Sets `target` to T^T (B u - c - H p), m^dim/s, by owned unknown, with c of the ground that is not yet reached or
     /// moves. Collective.
     /// @param pressure at all vertices, with ghosts
     void find_source(const WetNodes<dim> &nodes, const VertexVector &pressure, std::vector<double> &target);
@@ -93,14 +93,14 @@ namespace scree
                                    const VertexVector *suction                        = nullptr,
                                    const typename GroundRows<dim>::Vectors *tractions = nullptr);
 
-    /// Adds B of a flow whose ghosts hold values to `sums`, m^3/s; owned vertices hold this rank's part.
+    /// Adds B of a flow whose ghosts hold values to `sums`, m^dim/s; owned vertices hold this rank's part.
     void add_divergence(const FlowField<dim> &flow, VertexVector &sums) const;
 
     /// Adds -B^T p to forces, N: this rank's part.
     /// @param pressure Pa, with ghosts
     void add_force(const VertexVector &pressure, FlowField<dim> &forces) const;
 
-    /// int phi_i over the filled parts, of an owned node, m^3.
+    /// int phi_i over the filled parts, of an owned node, m^dim.
     double filled_volume(const unsigned int node) const
     {
       return defects[node][volume];
@@ -118,7 +118,7 @@ namespace scree
     {
       unsigned int node;     // owned
       double porosity;       // n_i
-      DragMobility mobility; // without walls; of the soil 0 where there is none
+      InverseMasses inverse; // without walls; of the soil 0 where there is none
       unsigned int held;     // number of its DragBlock among those that walls hold, or `free`
 
       static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int;
@@ -127,8 +127,8 @@ namespace scree
     /// Of a node.
     enum Defect : unsigned int
     {
-      volume, // int phi_i, m^3
-      surplus // Delta_i, m^3
+      volume, // int phi_i, m^dim
+      surplus // Delta_i, m^dim
     };
 
     /// Finds the volumes and the moments delta_ci.
@@ -164,15 +164,16 @@ namespace scree
     FreeSurface<dim> &surface;
     FilledPart<dim> part;
     NodeValues<dim, 2> defects;   // Defect
-    NodeValues<dim, 1> passed_on; // what is surplus next, m^3
+    NodeValues<dim, 1> passed_on; // what is surplus next, m^dim
     std::vector<NodeRow> moments; // delta_ci: rows of the parts' cells
 
     std::vector<Node> reached;                // owned nodes, by the parts and rows of any rank
     std::vector<DragBlock<dim>> held;         // see Node
+    std::vector<unsigned int> without_mass;   // owned nodes that they reach, but no point
     std::vector<unsigned int> without_grains; // nodes with soil that no water sees; also ghosts
     const GroundRows<dim> *rows = nullptr;
     double time_step            = 0;
-    std::vector<double> stiffness; // of H in a part's cell, m^3/(Pa s)
+    std::vector<double> stiffness; // of H in a part's cell, m^dim/(Pa s)
     FlowField<dim> flow;
     VertexVector full, sums;
   };

@@ -54,12 +54,12 @@ namespace scree
     ///
     /// Collective; throws if the solver does not converge.
     /// @param mixture gets the mobilities of its cells
-    /// @param pair_at see PressureOperators
+    /// @param block_at see PressureOperators
     /// @param rows of the ground; null: there is none
     /// @param holds_pressure the pressure stays as it is, the ground alone acts
     void solve(Mixture<dim> &mixture,
                const WetNodes<dim> &nodes,
-               const typename PressureOperators<dim>::BlockAt &pair_at,
+               const typename PressureOperators<dim>::BlockAt &block_at,
                GroundRows<dim> *rows,
                const bool holds_pressure,
                const double time_step,
@@ -78,7 +78,7 @@ namespace scree
     /// Adds the change to the pressure, which is that of the end of the step from here on. Collective.
     void accept_change();
 
-    /// Finds the potential whose flux, with the matrix of the last solve(), is `source`, m^3/s, by owned unknown.
+    /// Finds the potential whose flux, with the matrix of the last solve(), is `source`, m^dim/s, by owned unknown.
     /// Collective.
     void solve_potential(const std::vector<double> &source, Budget<dim> &balance);
 
@@ -118,7 +118,7 @@ namespace scree
     /// Sets `target` to the preconditioner times `source`. Collective.
     void precondition(Vector &target, const Vector &source);
 
-    /// Begins a program with this source, m^3/s, at the owned unknowns.
+    /// Begins a program with this source, m^dim/s, at the owned unknowns.
     /// @param of_ground its rows; null: none on any rank
     void begin(const std::vector<double> &source, GroundRows<dim> *of_ground);
 
@@ -169,7 +169,7 @@ namespace scree
     VertexVector pressure, change, potential, prescribed;
     typename GroundRows<dim>::Vectors tractions; // of the last solve, Pa
     std::vector<double> storage;                 // on the diagonal, by owned unknown
-    std::vector<double> diagonal;                // of S with the storage, by unknown, m^3/(Pa s)
+    std::vector<double> diagonal;                // of S with the storage, by unknown, m^dim/(Pa s)
   };
 } // namespace scree
 

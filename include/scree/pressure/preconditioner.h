@@ -50,11 +50,11 @@ namespace scree
     /// A cell that holds water.
     struct Cell
     {
-      unsigned int cell; ///< active cell index
-      double mobility;   ///< dt kappa h^(dim-2), m^3/(Pa s)
+      unsigned int cell;  ///< active cell index
+      double conductance; ///< dt kappa h^(dim-2), m^dim/(Pa s)
     };
 
-    /// Of the diagonal of L, m^3/(Pa s).
+    /// Of the diagonal of L, m^dim/(Pa s).
     enum Diagonal : unsigned int
     {
       whole,

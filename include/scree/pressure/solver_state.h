@@ -47,8 +47,8 @@ namespace scree
   /// What a preconditioner that is kept over steps was made from (PressurePreconditioner), and how it has done since.
   struct PreconditionerState
   {
-    NumbersByPlace mobilities;               ///< of the cells that held water, m^3/(Pa s)
-    NumbersByPlace diagonal;                 ///< what was added to it at the unknown vertices, m^3/(Pa s)
+    NumbersByPlace conductances;             ///< of the cells that held water, m^dim/(Pa s)
+    NumbersByPlace diagonal;                 ///< what was added to it at the unknown vertices, m^dim/(Pa s)
     unsigned int iterations_when_new = 0;    ///< of the first solve
     unsigned int surplus_iterations  = 0;    ///< over this, of all solves since
     bool is_worn                     = true; ///< the next solve makes another one
@@ -57,7 +57,7 @@ namespace scree
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &mobilities &diagonal &iterations_when_new &surplus_iterations &is_worn;
+      archive &conductances &diagonal &iterations_when_new &surplus_iterations &is_worn;
     }
   };
 

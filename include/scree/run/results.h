@@ -114,8 +114,7 @@ namespace scree
       BalanceStart<dim> &start             = statistics.start();
       const dealii::Tensor<1, dim> gravity = scene.forcing.gravity();
       const double mass_scaling            = scene.forcing.mass_scaling();
-      start.begin(time_step, gravity * start.momentum / mass_scaling);
-      start.least_averaging_work = std::min(start.least_averaging_work, totals.material.averaging_work);
+      start.begin(time_step, gravity * start.momentum / mass_scaling, totals.material.averaging_work);
       balances->look({ start, mass_scaling, gravity, sums, totals, time, time_step });
     }
 

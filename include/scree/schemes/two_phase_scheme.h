@@ -114,7 +114,7 @@ namespace scree
     }
 
     /// Free surface, p^n and B; what the sums say of the discharge, and the force of p^n. Collective.
-    void find_pair(const double time_step);
+    void prepare_pressure(const double time_step);
 
     /// The soil takes mass, weight and pressure of the water at its nodes: what carries both where water keeps its
     /// place.

@@ -38,6 +38,36 @@ namespace scree
   {
     using TwoDoubles = double __attribute__((vector_size(2 * sizeof(double)))); ///< a register of two doubles
 
+    /// Four rows of four or eight doubles, of which lanes 4 i + j of row k become lanes 4 i + k of row j: lanes of
+    /// records are those of quantities then, and the other way round.
+    template <typename Row>
+    DEAL_II_ALWAYS_INLINE inline void transpose_fours(Row *rows)
+    {
+      const Row a = rows[0], b = rows[1], c = rows[2], d = rows[3];
+      if constexpr (sizeof(Row) == 8 * sizeof(double))
+        {
+          const Row e = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+          const Row f = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+          const Row g = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+          const Row h = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+          rows[0]     = __builtin_shufflevector(e, g, 0, 1, 8, 9, 4, 5, 12, 13);
+          rows[1]     = __builtin_shufflevector(f, h, 0, 1, 8, 9, 4, 5, 12, 13);
+          rows[2]     = __builtin_shufflevector(e, g, 2, 3, 10, 11, 6, 7, 14, 15);
+          rows[3]     = __builtin_shufflevector(f, h, 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+      else
+        {
+          const Row e = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+          const Row f = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+          const Row g = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+          const Row h = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+          rows[0]     = __builtin_shufflevector(e, g, 0, 1, 4, 5);
+          rows[1]     = __builtin_shufflevector(f, h, 0, 1, 4, 5);
+          rows[2]     = __builtin_shufflevector(e, g, 2, 3, 6, 7);
+          rows[3]     = __builtin_shufflevector(f, h, 2, 3, 6, 7);
+        }
+    }
+
 #if defined(__AVX2__)
     using FourDoubles = double __attribute__((vector_size(4 * sizeof(double)))); ///< a register of four doubles
 
@@ -56,34 +86,6 @@ namespace scree
 #  endif
     }
 
-    /// Four batches of which lanes 4 i + j of batch k become lanes 4 i + k of batch j: lanes of records are those of
-    /// quantities then, and the other way round.
-    DEAL_II_ALWAYS_INLINE inline void transpose_fours(Batch *rows)
-    {
-      const Batch a = rows[0], b = rows[1], c = rows[2], d = rows[3];
-#  if defined(__AVX512F__) && defined(__AVX512DQ__)
-      const Batch e = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
-      const Batch f = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-      const Batch g = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
-      const Batch h = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
-      rows[0]       = __builtin_shufflevector(e, g, 0, 1, 8, 9, 4, 5, 12, 13);
-      rows[1]       = __builtin_shufflevector(f, h, 0, 1, 8, 9, 4, 5, 12, 13);
-      rows[2]       = __builtin_shufflevector(e, g, 2, 3, 10, 11, 6, 7, 14, 15);
-      rows[3]       = __builtin_shufflevector(f, h, 2, 3, 10, 11, 6, 7, 14, 15);
-#  else
-      const Batch e = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-      const Batch f = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-      const Batch g = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-      const Batch h = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-      rows[0]       = __builtin_shufflevector(e, g, 0, 1, 4, 5);
-      rows[1]       = __builtin_shufflevector(f, h, 0, 1, 4, 5);
-      rows[2]       = __builtin_shufflevector(e, g, 2, 3, 6, 7);
-      rows[3]       = __builtin_shufflevector(f, h, 2, 3, 6, 7);
-#  endif
-    }
-#endif
-
-#if defined(__AVX2__)
     /// Two doubles from `first` on of the records of lanes `l`, l + 2, ...
     DEAL_II_ALWAYS_INLINE inline Batch
     load_twos(const RecordPointers<const double> &records, const unsigned int first, const unsigned int l)

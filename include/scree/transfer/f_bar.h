@@ -55,11 +55,10 @@ namespace scree
     }
   };
 
-  /// Of a batch of points: J_e^2 = det b_e of those under stress, else 0.
-  /// @param trace of the stress, Pa
+  /// Of a batch of points: J_e^2 = det b_e of those under stress, else 0, and the trace of the stress, Pa.
   template <int dim>
-  DEAL_II_ALWAYS_INLINE inline Batch
-  elastic_square_under_stress(const MaterialPoints<dim> &points, const BatchIndices &indices, Batch &trace)
+  DEAL_II_ALWAYS_INLINE inline std::pair<Batch, Batch> elastic_square_under_stress(const MaterialPoints<dim> &points,
+                                                                                   const BatchIndices &indices)
   {
     RecordPointers<const double> states, stresses;
     for (unsigned int l = 0; l < batch_size; ++l)
@@ -71,10 +70,10 @@ namespace scree
     Batch b[n_symmetric_components<dim>], stress[3];
     simd::load_records<n_symmetric_components<dim>>(states, b);
     simd::load_records<3>(stresses, stress); // the normal ones
-    trace              = stress[0] + stress[1] + stress[2];
     const Batch zero   = simd::broadcast<Batch>(0.);
     const Batch square = stress[0] * stress[0] + stress[1] * stress[1] + stress[2] * stress[2];
-    return simd::select<Batch>(square > 0., determinant_of_components<dim>(b), zero);
+    return { simd::select<Batch>(square > 0., determinant_of_components<dim>(b), zero),
+             stress[0] + stress[1] + stress[2] };
   }
 
   /// Cells one behind the other, and the points in them.

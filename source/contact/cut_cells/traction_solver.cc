@@ -62,17 +62,17 @@ namespace scree
     const double *values          = field[node];
     const double mass             = values[NodalField<dim>::mass];
     const Tensor<1, dim> velocity = mass > 0. ? vector_of<dim>(values + NodalField<dim>::velocity) : Tensor<1, dim>();
-    NodeRow mobility{};
+    NodeRow inverse_mass{};
     for (unsigned int a = 0; a < dim && mass > 0.; ++a)
-      mobility[a] = 1. / mass;
+      inverse_mass[a] = 1. / mass;
     if (const NodeConstraints<dim> *walls = constraints.at(node))
       {
         const ConstrainedDirections<dim> held = held_by_walls(*walls, velocity);
         for (unsigned int a = 0; a < dim; ++a)
-          mobility[a] *= held.free_part(Point<dim>::unit_vector(a))[a];
+          inverse_mass[a] *= held.free_part(Point<dim>::unit_vector(a))[a];
       }
     nodes.push_back({ node, velocity });
-    mobilities.push_back(mobility);
+    inverse_masses.push_back(inverse_mass);
   }
 
 
@@ -82,7 +82,7 @@ namespace scree
     for (const Node &node : nodes)
       number_of_node[node.node] = none;
     nodes.clear();
-    mobilities.clear();
+    inverse_masses.clear();
     number_of_corner.clear();
     for (unsigned int k = 0; k < rows.all.size(); ++k)
       for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
@@ -148,7 +148,7 @@ namespace scree
         for (unsigned int i = 0; i < n; ++i)
           {
             const unsigned int node = number_of_corner[k * n + i];
-            response += rows.weight(k, i) * forces[node] * mobilities[node];
+            response += rows.weight(k, i) * forces[node] * inverse_masses[node];
           }
         double largest = 0.;
         for (unsigned int a = 0; a < dim; ++a)
@@ -177,7 +177,7 @@ namespace scree
       take_from_owners();
     motions.resize(nodes.size());
     for (unsigned int j = 0; j < nodes.size(); ++j)
-      motions[j] = -time_step * mobilities[j] * forces[j];
+      motions[j] = -time_step * inverse_masses[j] * forces[j];
   }
 
 
@@ -196,7 +196,7 @@ namespace scree
           {
             Tensor<1, dim> held;
             for (unsigned int a = 0; a < dim; ++a)
-              if (mobilities[j][a] == 0.)
+              if (inverse_masses[j][a] == 0.)
                 held[a] = time_step * forces[j][a];
             balance.wall_impulse += held;
             balance.soil_walls.add(walls->soil_faces, held);

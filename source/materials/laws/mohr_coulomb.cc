@@ -4,6 +4,8 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 using namespace dealii;
@@ -105,8 +107,10 @@ namespace scree
                       "degrees; dilation angle psi, at most the friction angle.",
                       Patterns::Double(0, 89));
     prm.add_parameter("Cohesion", cohesion, "Pa; cohesion c.", Patterns::Double(0));
-    prm.add_parameter(
-        "Tension cut-off", tension_cut_off, "Pa; largest principal stress, at most c cot(phi).", Patterns::Double(0));
+    prm.add_parameter("Tension cut-off",
+                      cut_off,
+                      "Pa; largest principal stress, at most c cot(phi). auto: with water the cohesion, or what it may "
+                      "be at most; in dry cases 0.");
     softening.add_parameters(prm);
     inertial_friction.add_parameters(prm);
   }
@@ -176,6 +180,19 @@ namespace scree
             "Tension cut-off",
             tension_cut_off,
             "residual cohesion and friction allow at most " + number_text(last.apex()) + " Pa; lower it.");
+  }
+
+
+  void MohrCoulombParameters::choose_cut_off(const std::string &subsection, const bool in_water)
+  {
+    const MohrCoulombParameters last = residual();
+    if (cut_off == "auto")
+      tension_cut_off = in_water ? std::min({ cohesion, apex(), last.cohesion, last.apex() }) : 0.;
+    else
+      tension_cut_off = number_of(cut_off);
+    require_entry(std::isfinite(tension_cut_off) && tension_cut_off >= 0.,
+                  { subsection, "Tension cut-off", cut_off },
+                  "write auto, or a number from 0 on, in Pa.");
   }
 
 

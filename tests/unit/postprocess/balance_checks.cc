@@ -93,9 +93,10 @@ void check_middle_of_steps()
 void check_first_step()
 {
   BalanceStart<2> start{ true, Tensor<1, 2>(), 100., false };
-  start.begin(0.1, 40.);
-  start.begin(0.2, 40.);
+  start.begin(0.1, 40., 3.);
+  start.begin(0.2, 40., -5.);
   expect(start.energy, 102., 1e-12, "energy of the start");
+  expect(start.least_averaging_work, -5., 1e-12, "least work of the averaging");
 }
 
 

@@ -98,7 +98,7 @@ namespace scree
     std::vector<unsigned int> number_of_node;   // of the grid's nodes; `none`: not there
     std::vector<unsigned int> number_of_corner; // of the nodes of the rows, a row's behind each other
     std::vector<Node> nodes;
-    std::vector<NodeRow> motions, mobilities, forces;     // by number: m/s, 1/kg along each axis, N on the ground
+    std::vector<NodeRow> motions, inverse_masses, forces; // by number: m/s, 1/kg along each axis, N on the ground
     std::vector<double> steps;                            // by row
     typename GroundRows<dim>::Vectors last, extrapolated; // tractions
   };

@@ -150,6 +150,7 @@ namespace scree
     double friction_angle  = 30;                  ///< phi, degrees
     double dilation_angle  = 0;                   ///< psi, degrees
     double cohesion        = 0;                   ///< c, Pa
+    std::string cut_off    = "auto";              ///< entry "Tension cut-off": a number in Pa, or auto
     double tension_cut_off = 0;                   ///< largest principal stress, Pa; at most c cot(phi)
     std::string angle_kind = "triaxial";          ///< what phi was measured in
     InertialFrictionParameters inertial_friction; ///< of grains that flow
@@ -168,6 +169,10 @@ namespace scree
 
     void add_parameters(dealii::ParameterHandler &prm) override;
     void check(const std::string &subsection) const override;
+
+    /// Finds the tension cut-off from its entry; auto: the cohesion, as far as its strength, also the residual one,
+    /// allows it, in water, else 0. Throws EntryError if the entry is neither auto nor a number from 0 on.
+    void choose_cut_off(const std::string &subsection, const bool in_water);
 
     /// Divides tan(phi), c and the tension cut-off; psi stays, but is at most phi.
     bool divide_strength(const double factor) override;

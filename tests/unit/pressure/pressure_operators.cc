@@ -7,7 +7,7 @@
 
 #include <scree/pressure/operators.h>
 
-namespace test_pressure_pair
+namespace test_pressure_operators
 {
 template <int dim>
 class Scene : public WetScene<dim>
@@ -25,7 +25,7 @@ public:
       for (FlowField<dim> *field : { &flow, &forces })
         field->activate_cell(cell.cell);
     surface.locate(mixture, pressure);
-    operators.find_pair(
+    operators.integrate(
         mixture,
         [&](const unsigned int node) {
           return nodes.water[node][NodalField<dim>::mass] / 1000. + nodes.pores[node][Pores::local_solid_volume];
@@ -48,14 +48,14 @@ public:
     nodes.update_velocity_ghosts();
     nodes.pores.update_ghosts();
     add_rows();
-    const auto pair_at = [&](const unsigned int node) {
-      DragBlock<dim> pair;
-      pair.soil_mass  = nodes.has_soil(node) ? 1.5 + kind_of(node) : 0.;
-      pair.water_mass = nodes.has_water(node) ? 1. + pattern(2. * grid.node_position(node)) / 2. : 0.;
-      pair.drag       = nodes.porosity(node) < 1. ? 10. : 0.;
-      return pair;
+    const auto block_at = [&](const unsigned int node) {
+      DragBlock<dim> block;
+      block.soil_mass  = nodes.has_soil(node) ? 1.5 + kind_of(node) : 0.;
+      block.water_mass = nodes.has_water(node) ? 1. + pattern(2. * grid.node_position(node)) / 2. : 0.;
+      block.drag       = nodes.porosity(node) < 1. ? 10. : 0.;
+      return block;
     };
-    operators.assemble(mixture, nodes, pair_at, &rows, time_step);
+    operators.assemble(mixture, nodes, block_at, &rows, time_step);
   }
 
   /// Soil and water at a facet in each wet cell.
@@ -228,7 +228,7 @@ void test(const std::string &basis, const double volume, const std::vector<doubl
     }
 
   // A traction of 1 along an axis at one row of soil, of one rank after the other: its own flow is the diagonal.
-  scene.rows.set_mobilities(scene.operators.mobilities());
+  scene.rows.set_responses(scene.operators.inverse_masses(), Scene<dim>::time_step);
   const unsigned int n_rows = scene.rows.all.size(), most_rows = Utilities::MPI::max(n_rows, MPI_COMM_WORLD);
   for (unsigned int rank = 0; rank < Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD); ++rank)
     for (unsigned int k = 0; k < std::min(most_rows, 40u); k += 2)
@@ -282,12 +282,12 @@ void test(const std::string &basis, const double volume, const std::vector<doubl
 }
 
 
-const UnitTest registered("pressure_pair", [] {
+const UnitTest registered("pressure_operators", [] {
   test<2>("spline", 0.262347, { 0.000816676, 0.00115534 });
   test<3>("spline", 0.157837, { 2.87803e-05, 0.00316607 });
   test<2>("linear", 0.262347, { 0.000629316, 0.00190413 });
   test<3>("linear", 0.157837, { 3.45843e-05, 0.00937255 });
 });
-} // namespace test_pressure_pair
+} // namespace test_pressure_operators
 
 // Runs with mpirun=1,2.
