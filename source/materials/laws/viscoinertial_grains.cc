@@ -28,12 +28,11 @@ namespace scree
                       "Pa s; viscosity of the liquid in the viscous number I_v; 0: dry grains. The stress of free "
                       "water has an entry of its own in subsection Water.",
                       not_negative);
-    prm.add_parameter(
-        "Initial solid fraction",
-        initial_fraction,
-        "Solid fraction phi_0 at the start. Below the critical one, grains at rest carry no stress: write "
-        "\"Type = none\" in subsection Initial state.",
-        fraction);
+    prm.add_parameter("Initial solid fraction",
+                      initial_fraction,
+                      "Solid fraction phi_0 at the start. Below the critical one, grains at rest carry no stress: "
+                      "write \"Type = none\" in subsection Initial state.",
+                      fraction);
     prm.add_parameter("Critical solid fraction", critical_fraction, "Solid fraction phi_m of slow flow.", fraction);
     prm.add_parameter("Solid fraction coefficient",
                       fraction_slope,

@@ -159,13 +159,13 @@ namespace scree
       const Number linear = m_ * gamma - q;
 
       Number y = simd::sqrt<Number>(q), slope = zero;
-      for (unsigned int i = 0; i < most_iterations; ++i)
+      simd::Mask<Number> is_moving = y > 0.;
+      for (unsigned int i = 0; i < most_iterations && simd::any(is_moving); ++i)
         {
           slope               = (3. * y + 2. * s) * y + linear;
           const Number change = simd::max<Number>((((y + s) * y + linear) * y - q * s) / slope, zero);
-          y                   = y - change;
-          if (!simd::any(change > tolerance * y))
-            break;
+          y                   = simd::select<Number>(is_moving, y - change, y);
+          is_moving           = is_moving & (change > tolerance * y);
         }
       y               = simd::max<Number>(y, least);
       slope           = (3. * y + 2. * s) * y + linear;
