@@ -136,9 +136,9 @@ def draw_submerged_columns(target):
         of_packing = [row for row in rows if row["column"] == packing]
         for run_name in dict.fromkeys(row["run"] for row in of_packing):
             line = [(float(row["time_s"]), float(row["front_cm"])) for row in of_packing if row["run"] == run_name]
-            axes.plot(*zip(*line), label=run_name)
+            axes.plot(*zip(*line), color={"law, 6 mm": "C0", "law, 4 mm": "C1"}.get(run_name, "C2"), label=run_name)
         axes.set(xlabel="time (s)", title=packing)
-        axes.legend(loc="lower right")
+        axes.legend(loc="lower right" if packing == "loose" else "upper right")
     both[0].set_ylabel("front (cm)")
     charts.save(figure, target)
 
