@@ -4,7 +4,7 @@
 PYTHONPATH=source/python python3 -m scree.benchmarks
 
 Writes the tables into doc/verification/benchmarks.md, between the lines `<!-- rows of PAGE -->` and `<!-- end -->`, the chart
-doc/verification/benchmarks.svg, and the pictures of doc/validation.md, doc/verification/agreement_*.svg.
+doc/verification/benchmarks.svg, and the pictures of doc/validation.md and of the page of wet experiments, doc/verification/agreement_*.svg.
 """
 
 import csv
@@ -124,6 +124,25 @@ def draw_slopes_under_water(target):
     charts.save(figure, target)
 
 
+def draw_submerged_columns(target):
+    """Fronts of loose and dense submerged columns over time: measured ones as points, computed ones as lines."""
+    with open(FOLDER / "submerged_columns.csv", encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    figure, both = charts.plt.subplots(1, 2, figsize=(charts.WIDTH, 3.2), sharey=True)
+    for axes, packing in zip(both, ("loose", "dense")):
+        with open(ROOT / "doc" / "studies" / "reference" / f"rondon_{packing}_front.csv", encoding="utf-8", newline="") as file:
+            measured = list(csv.DictReader(file))
+        axes.scatter([float(row["time_s"]) for row in measured], [float(row["front_cm"]) for row in measured], color="0.3", s=20, zorder=3, label="experiment")
+        of_packing = [row for row in rows if row["column"] == packing]
+        for run_name in dict.fromkeys(row["run"] for row in of_packing):
+            line = [(float(row["time_s"]), float(row["front_cm"])) for row in of_packing if row["run"] == run_name]
+            axes.plot(*zip(*line), color={"law, 6 mm": "C0", "law, 4 mm": "C1"}.get(run_name, "C2"), label=run_name)
+        axes.set(xlabel="time (s)", title=packing)
+        axes.legend(loc="lower right" if packing == "loose" else "upper right")
+    both[0].set_ylabel("front (cm)")
+    charts.save(figure, target)
+
+
 def main():
     page = FOLDER / "benchmarks.md"
     page.write_text(filled(page.read_text(encoding="utf-8"), read()), encoding="utf-8")
@@ -131,6 +150,7 @@ def main():
     draw_ratios(SEEPAGE, FOLDER / "agreement_seepage")
     draw_ratios(FORCES, FOLDER / "agreement_forces")
     draw_slopes_under_water(FOLDER / "agreement_submerged_slope")
+    draw_submerged_columns(FOLDER / "agreement_submerged_columns")
 
 
 if __name__ == "__main__":

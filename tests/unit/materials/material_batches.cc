@@ -5,6 +5,7 @@
 
 #include <scree/materials/laws/nor_sand.h>
 #include <scree/materials/laws/tresca.h>
+#include <scree/materials/laws/viscoinertial_grains.h>
 
 #include <numeric>
 
@@ -279,6 +280,18 @@ void test_falling_strength(const unsigned int n, RandomNumbers &random)
 }
 
 
+/// The random volume ratio makes them dense grains or a suspension.
+template <int dim>
+void test_viscoinertial_grains(const unsigned int n, RandomNumbers &random)
+{
+  test<dim>(ViscoinertialGrains{ ViscoinertialGrainsParameters() },
+            { "grains", 1e-6, 0.01, 1e1, 1e4, 0.6, 1, 0.1 },
+            n,
+            1e-8,
+            random);
+}
+
+
 /// Denormal numbers, exact unity, and one point alone.
 template <int dim, typename Law>
 void test_odd(const Law &law)
@@ -314,6 +327,7 @@ void test_all()
   test_mohr_coulomb<dim>(n, random);
   test_jefferies_been<dim>(n, random);
   test_falling_strength<dim>(n, random);
+  test_viscoinertial_grains<dim>(n, random);
   test_odd<dim>(NorSand{ NorSandParameters() });
   test_odd<dim>(MohrCoulomb{ MohrCoulombParameters() });
   test_odd<dim>(JefferiesBeen{ JefferiesBeenParameters() });

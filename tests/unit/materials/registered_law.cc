@@ -60,7 +60,8 @@ void run()
     names += law.name + "; ";
   expect_text(
       names,
-      "Herschel-Bulkley; linear elastic; Moduli; Mohr-Coulomb; Nor-Sand; Nor-Sand (Jefferies-Been); rigid; Tresca; ",
+      "Herschel-Bulkley; linear elastic; Moduli; Mohr-Coulomb; Nor-Sand; Nor-Sand (Jefferies-Been); rigid; Tresca; "
+      "viscoinertial grains; ",
       "list of laws");
   expect_text(parameters.modulus_text("Soil"), "subsection Soil/Moduli, entry \"Shear modulus\" = 3e+06", "modulus");
   const auto plane = make_material<2>(parameters);
