@@ -164,13 +164,13 @@ def kinetic_energy(soil):
 def draw(rows, soil, picture, program):
     """The history of the reference beside that of the program (statistics.csv), and the points at the end."""
     import matplotlib.pyplot as plt
-    of_program = np.genfromtxt(program, delimiter=",", names=True)
+    of_program = np.genfromtxt(program, delimiter=",", names=True, deletechars="", replace_space=" ")
     figure, panels = plt.subplots(3, 1, figsize=(7, 7), constrained_layout=True, height_ratios=(1, 1, 1.3))
     time, energy, *fronts = np.transpose(rows)
-    for panel, label, curves in ((panels[0], "kinetic energy (J)", [(energy, "kinetic_energy_J")]),
-                                 (panels[1], "front (m)", [(fronts[0], "front_90_m"), (fronts[1], "front_99_m")])):
+    for panel, label, curves in ((panels[0], "kinetic energy (J)", [(energy, "Kinetic energy (J)")]),
+                                 (panels[1], "front (m)", [(fronts[0], "Front 90 % (m)"), (fronts[1], "Front 99 % (m)")])):
         for values, column in curves:
-            panel.plot(of_program["time_s"], of_program[column], "C0", label="program")
+            panel.plot(of_program["Time (s)"], of_program[column], "C0", label="program")
             panel.plot(time, values, "k.", label="dry_step.py")
         panel.set(xlabel="time (s)", ylabel=label, xlim=(0, 3))
     panels[0].legend()

@@ -3,9 +3,6 @@
 #include <scree/version.h>
 
 #include <boost/range/adaptor/map.hpp>
-#include <boost/range/iterator_range.hpp>
-#include <boost/serialization/string.hpp>
-#include <boost/serialization/vector.hpp>
 
 #include <cerrno>
 #include <filesystem>
@@ -20,8 +17,7 @@ namespace scree
   {
     namespace fs = std::filesystem;
 
-    const std::string name_of_manifest = "manifest", name_of_step = "step-", name_of_entries = "entries",
-                      name_of_state = "state", name_of_points = "points.", name_of_mesh = "mesh.";
+    const std::string name_of_manifest = "manifest", name_of_step = "step-";
     const std::string format_line    = "Scree checkpoint, format 24";
     const std::string checksum_label = "checksum: ";
 
@@ -73,17 +69,13 @@ namespace scree
     }
 
 
-    void write_manifest(const Checkpoint &checkpoint)
+    /// The content of the manifest: the format, the checkpoint as an archive, and a checksum of both.
+    std::string manifest_of(const Checkpoint &checkpoint)
     {
       std::ostringstream text;
-      text << std::setprecision(std::numeric_limits<double>::max_digits10) << format_line
-           << "\nprogram: " << checkpoint.program << "\ndimension: " << checkpoint.dimension
-           << "\ntime: " << checkpoint.time << "\nstep: " << checkpoint.step << '\n';
-      for (const CheckedFile &file : checkpoint.files)
-        text << "file: " << file.name << ' ' << file.size << ' ' << std::hex << file.checksum << std::dec << '\n';
-      const std::string content = text.str() + checksum_line(text.str());
-      write_whole_files({ { checkpoint.folder + '/' + name_of_manifest, content } });
-      read_checked_file(checkpoint.folder, checked_file(name_of_manifest, content));
+      text << format_line << '\n';
+      boost::archive::binary_oarchive(text) << checkpoint;
+      return text.str() + checksum_line(text.str());
     }
 
 
@@ -91,36 +83,21 @@ namespace scree
     Checkpoint read_manifest(const std::string &folder)
     {
       const std::string path = folder + '/' + name_of_manifest, text = read_whole_file(path);
-      const std::size_t end  = std::min(text.rfind(checksum_label), text.size());
+      const std::size_t end  = text.size() - std::min(text.size(), checksum_line("").size());
       const std::string head = text.substr(0, end);
       if (text.substr(end) != checksum_line(head))
         throw FileError(path + ": is not what was written (its checksum differs)");
       std::istringstream in(head);
-      std::string line, label;
+      std::string line;
       std::getline(in, line);
       if (line != format_line)
         throw FileError(path + ": begins with \"" + line + "\", but this program reads \"" + format_line + '"');
       Checkpoint checkpoint;
+      boost::archive::binary_iarchive(in) >> checkpoint;
       checkpoint.folder = folder;
-      in >> label >> std::ws;
-      std::getline(in, checkpoint.program);
-      in >> label >> checkpoint.dimension >> label >> checkpoint.time >> label >> checkpoint.step;
-      CheckedFile file;
-      while (in >> label >> file.name >> file.size >> std::hex >> file.checksum >> std::dec)
-        checkpoint.files.push_back(file);
       if (const auto step = step_of(folder); step >= 0 && std::uint64_t(step) != checkpoint.step)
         throw FileError(path + ": belongs to step " + std::to_string(checkpoint.step) + ", not to this folder");
       return checkpoint;
-    }
-
-
-    /// The content of the file of that name. Throws FileError if there is none.
-    std::string read_file(const Checkpoint &checkpoint, const std::string &name)
-    {
-      for (const CheckedFile &file : checkpoint.files)
-        if (file.name == name)
-          return read_checked_file(checkpoint.folder, file);
-      throw FileError(name_of_manifest + ": names no file " + name);
     }
 
 
@@ -145,30 +122,23 @@ namespace scree
     }
 
 
-    std::uint64_t size_of(const Checkpoint &checkpoint)
-    {
-      std::uint64_t bytes = 0;
-      for (const CheckedFile &file : checkpoint.files)
-        bytes += file.size;
-      return bytes;
-    }
-
-
     /// Writes the manifest, reads it again, gives the checkpoint its name and removes older ones than the last.
-    void finish_checkpoint(const Checkpoint &checkpoint, const std::string &run_folder)
+    void finish_checkpoint(const std::string &unfinished,
+                           const std::string &manifest,
+                           const std::string &run_folder,
+                           const std::uint64_t step)
     {
-      write_manifest(checkpoint);
-      const std::string folder = run_folder + "/checkpoint",
-                        name   = folder + '/' + name_of_step + std::to_string(checkpoint.step);
+      write_whole_files({ { unfinished + '/' + name_of_manifest, manifest } });
+      read_checked_file(unfinished, checked_file(name_of_manifest, manifest));
+      const std::string folder = run_folder + "/checkpoint", name = folder + '/' + name_of_step + std::to_string(step);
       // One of that name is of another future: a damaged one, or the run went on from an older one.
       remove_folder(name);
-      if (std::rename(checkpoint.folder.c_str(), name.c_str()) != 0)
-        throw error_of_writing(name, size_of(checkpoint));
+      if (std::rename(unfinished.c_str(), name.c_str()) != 0)
+        throw error_of_writing(name, manifest.size());
       sync_folder(folder);
       unsigned int n_older = 0;
       for (const std::string &other : folders_of(run_folder))
-        if (const auto step = std::uint64_t(step_of(other));
-            step != checkpoint.step && (step > checkpoint.step || n_older++ > 0))
+        if (const auto of_other = std::uint64_t(step_of(other)); of_other != step && (of_other > step || n_older++ > 0))
           remove_folder(other);
     }
 
@@ -250,34 +220,16 @@ namespace scree
         return n_points;
       };
       for (const CheckedFile &file : checkpoint.files)
-        if (file.name.rfind(name_of_points, 0) == 0)
-          {
-            std::istringstream content(read_checked_file(checkpoint.folder, file));
-            const auto take = [&](auto *values, const std::size_t n) { // as append_bytes() put them there
-              if (!content.read(reinterpret_cast<char *>(values), n * sizeof(*values)))
-                throw FileError(checkpoint.folder + '/' + file.name + ": ends too early");
-            };
-            for (unsigned int s = 0; s < sets.size(); ++s)
-              n_of_sets[s] += unpack(take, *sets[s]);
-          }
+        {
+          std::istringstream content(read_checked_file(checkpoint.folder, file));
+          const auto take = [&](auto *values, const std::size_t n) { // as append_bytes() put them there
+            if (!content.read(reinterpret_cast<char *>(values), n * sizeof(*values)))
+              throw FileError(checkpoint.folder + '/' + file.name + ": ends too early");
+          };
+          for (unsigned int s = 0; s < sets.size(); ++s)
+            n_of_sets[s] += unpack(take, *sets[s]);
+        }
       return n_of_sets;
-    }
-
-
-    /// The blocks of fine cells of all ranks.
-    Blocks read_blocks(const Checkpoint &checkpoint)
-    {
-      Blocks blocks;
-      for (const CheckedFile &file : checkpoint.files)
-        if (file.name.rfind(name_of_mesh, 0) == 0)
-          {
-            const std::string content  = read_checked_file(checkpoint.folder, file);
-            const std::size_t n_before = blocks.size();
-            blocks.resize(n_before + content.size() / sizeof(Blocks::value_type));
-            std::memcpy(blocks.data() + n_before, content.data(), (blocks.size() - n_before) * sizeof(blocks[0]));
-          }
-      make_unique(blocks);
-      return blocks;
     }
   } // namespace
 
@@ -307,40 +259,32 @@ namespace scree
     const std::string unfinished = run_folder + "/checkpoint/unfinished";
     const MPI_Comm communicator  = grid.communicator();
     const unsigned int rank      = Utilities::MPI::this_mpi_process(communicator);
-    const auto contents          = std::make_shared<std::vector<FileContent>>();
-    std::vector<CheckedFile> own;
-    const auto add = [&](const std::string &name, std::string content) {
-      own.push_back(checked_file(name, content));
-      contents->emplace_back(unfinished + '/' + name, std::move(content));
-    };
-    if (rank == 0)
-      add(name_of_entries, entries.text());
+    const std::string version    = version_text();
+    Checkpoint checkpoint{ unfinished, version.substr(0, version.find('\n')), dim, time, step, entries, {}, {}, {} };
     if (grid.follows_points())
-      {
-        const Blocks blocks = grid.fine_blocks();
-        std::string bytes;
-        append_bytes(bytes, blocks.data(), blocks.size());
-        add(name_of_mesh + std::to_string(rank), std::move(bytes));
-      }
-    add(name_of_points + std::to_string(rank), pack_points(sets));
+      checkpoint.blocks = all_blocks(grid.fine_blocks(), communicator);
+    const auto points =
+        std::make_shared<FileContent>(unfinished + "/points." + std::to_string(rank), pack_points(sets));
+    const CheckedFile own = checked_file("points." + std::to_string(rank), points->second);
+    checkpoint.files      = Utilities::MPI::all_gather(communicator, own);
+    std::string manifest;
     if (rank == 0)
       {
         std::ostringstream out;
         boost::archive::binary_oarchive archive(out);
         state(archive);
-        add(name_of_state, out.str());
+        checkpoint.state = out.str();
+        manifest         = manifest_of(checkpoint);
       }
-    const std::string version = version_text();
-    Checkpoint checkpoint{ unfinished, version.substr(0, version.find('\n')), dim, time, step, {}, {} };
-    for (const auto &files : Utilities::MPI::all_gather(communicator, own))
-      checkpoint.files.insert(checkpoint.files.end(), files.begin(), files.end());
+    std::uint64_t n_bytes = manifest.size();
+    for (const CheckedFile &file : checkpoint.files)
+      n_bytes += file.size;
 
     FileJob job;
     job.stages.resize(3);
     job.stages[1] = [=] {
-      write_whole_files(*contents);
-      for (const CheckedFile &file : own)
-        read_checked_file(unfinished, file);
+      write_whole_files({ *points });
+      read_checked_file(unfinished, own);
     };
     if (rank == 0)
       {
@@ -354,14 +298,14 @@ namespace scree
               throw error_of_writing(unfinished, 0);
             }
         };
-        job.stages[2] = [=] { finish_checkpoint(checkpoint, run_folder); };
+        job.stages[2] = [=] { finish_checkpoint(unfinished, manifest, run_folder, step); };
       }
     job.failed = [=](const std::string &fault) {
       std::error_code ignored;
       if (rank == 0)
         fs::remove_all(unfinished, ignored);
       std::string message = fault + " The checkpoint at t = " + number_text(time) + " s needs " +
-                            std::to_string(size_of(checkpoint)) + " bytes in all. ";
+                            std::to_string(n_bytes) + " bytes in all. ";
       if (rank == 0)
         {
           std::string names;
@@ -386,9 +330,8 @@ namespace scree
       {
         Checkpoint checkpoint;
         const std::string fault        = fault_of([&] {
-          checkpoint         = read_manifest(folder);
-          checkpoint.entries = CaseEntries(read_file(checkpoint, name_of_entries));
-          const auto &files  = checkpoint.files;
+          checkpoint        = read_manifest(folder);
+          const auto &files = checkpoint.files;
           for (unsigned int f = rank; f < files.size(); f += n_ranks)
             read_checked_file(folder, files[f]);
         });
@@ -423,11 +366,7 @@ namespace scree
     for (PointSet<dim> *points : sets)
       points->handler().clear_particles();
     if (grid.follows_points())
-      {
-        Blocks blocks;
-        on_all([&] { blocks = read_blocks(checkpoint); });
-        grid.change_cells(&blocks);
-      }
+      grid.change_cells(&checkpoint.blocks);
     std::vector<std::uint64_t> n_points;
     on_all([&] { n_points = read_points(checkpoint, grid.triangulation(), sets); });
     for (PointSet<dim> *points : sets)
@@ -439,11 +378,11 @@ namespace scree
       for (unsigned int s = 0; s < sets.size(); ++s)
         AssertThrow(sets[s]->handler().n_global_particles() == n_points[s],
                     ExcMessage("Points lie in cells that the case does not have."));
-      std::istringstream in(read_file(checkpoint, name_of_state));
+      std::istringstream in(checkpoint.state);
       boost::archive::binary_iarchive archive(in);
       state(archive);
       if (in.peek() != std::istringstream::traits_type::eof())
-        throw FileError(checkpoint.folder + '/' + name_of_state + ": holds more than this program reads");
+        throw FileError(checkpoint.folder + '/' + name_of_manifest + ": holds more than this program reads");
     });
   }
 

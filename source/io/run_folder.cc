@@ -2,12 +2,10 @@
 #include <scree/io/progress.h>
 #include <scree/io/run_folder.h>
 
-#include <boost/algorithm/string/trim.hpp>
+#include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/replace.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <optional>
-#include <regex>
 
 namespace scree
 {
@@ -27,9 +25,9 @@ namespace scree
             };
         remove_files("solution", "", { ".vtu", ".pvtu", ".pvd" });
         remove_files("maps", "", { ".asc", ".prj", ".tif", ".csv" });
-        for (const std::string name : { "statistics", "statistics.csv", "checks.csv" })
+        for (const std::string name : { "statistics.csv", "checks.csv" })
           std::filesystem::remove(file(name));
-        remove_files(".", "probe_", { "", ".csv" });
+        remove_files(".", "probe_", { ".csv" });
         std::filesystem::remove_all(file("checkpoint"));
         log_file.close();
         log_file.open(file("log.txt"), std::ios::trunc);
@@ -56,50 +54,12 @@ namespace scree
   }
 
 
-  std::string table_head(const std::vector<std::string> &columns)
-  {
-    std::string lines;
-    for (unsigned int i = 0; i < columns.size(); ++i)
-      lines += "# " + std::to_string(i + 1) + ": " + columns[i] + '\n';
-    return lines;
-  }
-
-
-  std::string table_row(const std::vector<double> &values)
-  {
-    std::string line;
-    for (const double value : values)
-      line += formatted("%.12e ", value);
-    return line + '\n';
-  }
-
-
-  std::string csv_name(const std::string &column)
-  {
-    static const std::regex with_unit("(.*) \\((.*)\\)"), not_of_unit("[^A-Za-z0-9/]"),
-        not_of_word("[\\x01-/:-@\\[-`{-\\x7F]+"); // letters may lie beyond ASCII
-    std::smatch parts;
-    const bool has_unit     = std::regex_match(column, parts, with_unit);
-    const std::string words = std::regex_replace(lower_case(has_unit ? parts[1] : column), not_of_word, "_");
-    const std::string name  = boost::algorithm::trim_copy_if(words, [](const char c) { return c == '_'; });
-    std::string unit        = has_unit ? parts[2] : std::string();
-    unit                    = unit == "%" ? "percent" : std::regex_replace(unit, not_of_unit, "");
-    std::replace(unit.begin(), unit.end(), '/', '_');
-    return unit.empty() ? name : name + '_' + unit;
-  }
-
-
   std::string csv_head(const std::vector<std::string> &columns)
   {
-    std::vector<std::string> names;
-    for (const std::string &column : columns)
-      {
-        const std::string wanted = csv_name(column);
-        std::string name         = wanted;
-        for (unsigned int n = 2; std::find(names.begin(), names.end(), name) != names.end(); ++n)
-          name = wanted + '_' + std::to_string(n);
-        names.push_back(name);
-      }
+    std::vector<std::string> names = columns;
+    for (std::string &name : names)
+      if (name.find_first_of(",\"") != std::string::npos) // from the name of an obstacle
+        name = '"' + boost::algorithm::replace_all_copy(name, "\"", "\"\"") + '"';
     return boost::algorithm::join(names, ",") + '\n';
   }
 
@@ -117,42 +77,9 @@ namespace scree
   {
     if (!folder.is_writer())
       return;
-    for (File &file : files)
-      {
-        std::string text = file.rows.is_empty() ? file.head(columns) : "";
-        for (const std::vector<double> &row : rows)
-          text += file.row(row);
-        folder.try_to_write(file.name, [&] { file.rows.append(text); });
-      }
-  }
-
-
-  void TableFile::cut()
-  {
-    if (!folder.is_writer())
-      return;
-    for (File &file : files)
-      if (const std::string missing = file.rows.cut(); !missing.empty())
-        folder.log(missing);
-  }
-
-
-  void TableFile::complete()
-  {
-    if (!folder.is_writer())
-      return;
-    std::optional<FileError> refusal;
-    for (File &file : files)
-      try
-        {
-          if (!file.rows.is_complete())
-            file.rows.append("");
-        }
-      catch (const FileError &error)
-        {
-          refusal = refusal.value_or(error); // the other file may have room
-        }
-    if (refusal)
-      throw *refusal;
+    std::string text = file.is_empty() ? csv_head(columns) : "";
+    for (const std::vector<double> &row : rows)
+      text += csv_row(row);
+    folder.try_to_write(name, [&] { file.append(text); });
   }
 } // namespace scree

@@ -102,7 +102,7 @@ def screen():
     text = printed(SCREE, "case.prm")
     require(text, r"Checks      fault: points of soil lost [1-9]\d* \(bound 0\);.*", "            within bounds: mass balance.*")
     found = re.search(r'a lower bound: (\S+) % of the soil has left the box, most of it through the wall x = 2 m \("Upper corner"\)', " ".join(text.split()))
-    table = read_table(pathlib.Path("results/statistics"))
+    table = read_table(pathlib.Path("results/statistics.csv"))
     share = 100 * table["Mass lost (kg)"][-1] / table["Mass (kg)"][0]
     check(found and abs(float(found[1]) / share - 1) < 0.01, f"{share} % lost: {text}")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""compare_statistics.py: are all rows of two tables `statistics` equal?
+"""compare_statistics.py: are all rows of two tables `statistics.csv` equal?
 
 Numbers differ by at most a tolerance times the largest number of their column. Columns that are differences of large numbers
 have their scale: the energies and momenta that they balance, the largest p, 1 for errors, and for an oscillation over a mean the

@@ -81,7 +81,7 @@ def slide():
     text = set_entries(read_case(pathlib.Path(os.environ["SHORT_CASES"], "bed_short_3d.prm")), {**MAPS, "Soil/Initial velocity": "1; 0.3; -0.46"})  # along the bed
     one = run("one", text)
     first = {name: read_map(one, name) for name in NAMES}
-    statistics = read_table(one / "statistics")
+    statistics = read_table(one / "statistics.csv")
     mass = next(values for name, values in statistics.items() if name.startswith("Mass (kg)"))[-1]
     check(abs(np.nansum(first["mass"]) * 0.1**2 / mass - 1) <= 1e-7, "mass of the map and of the points")
     there = ~np.isnan(first["thickness"])
@@ -109,28 +109,28 @@ def profile():
     for ranks in (1, 2):
         results = run(f"profile_{ranks}", plane, ranks=ranks)
         table = read_profile(results)
-        close(table["x_m"], 600000 + 0.1 * (np.arange(12) + 0.5), "x")
+        close(table["x (m)"], 600000 + 0.1 * (np.arange(12) + 0.5), "x")
         at_end = np.zeros(12)
         at_end[4:9] = 0.05, 0.35, 0.4, 0.35, 0.05
         at_start = np.roll(at_end, -3)
-        close(table["thickness_m"], at_end, "thickness")
-        close(table["mass_kg_m2"], 2000 * at_end, "mass")
-        close(table["deposit_m"], at_end - at_start, "deposit")
+        close(table["thickness (m)"], at_end, "thickness")
+        close(table["mass (kg/m^2)"], 2000 * at_end, "mass")
+        close(table["deposit (m)"], at_end - at_start, "deposit")
         largest = np.maximum(at_start, at_end)
-        close(table["largest_thickness_m"], largest, "largest thickness")
-        close(table["largest_speed_m_s"], np.sqrt(10) * (largest > 0), "largest speed")
-        close(table["largest_impact_pressure_Pa"] / 2e4, largest > 0, "largest impact pressure over density times speed squared")
+        close(table["largest thickness (m)"], largest, "largest thickness")
+        close(table["largest speed (m/s)"], np.sqrt(10) * (largest > 0), "largest speed")
+        close(table["largest impact pressure (Pa)"] / 2e4, largest > 0, "largest impact pressure over density times speed squared")
         arrival = np.where(at_start > 0, 0, np.where(at_end > 0, 0.1, np.nan))
-        check(np.array_equal(np.isnan(table["arrival_time_s"]), np.isnan(arrival)), "arrival where there was nothing")
-        close(np.nan_to_num(table["arrival_time_s"]), np.nan_to_num(arrival), "arrival time")
+        check(np.array_equal(np.isnan(table["arrival time (s)"]), np.isnan(arrival)), "arrival where there was nothing")
+        close(np.nan_to_num(table["arrival time (s)"]), np.nan_to_num(arrival), "arrival time")
         check((results / "maps" / "profile_0.0s.csv").exists() and (results / "maps" / "profile_0.1s.csv").exists(), "profiles of their times")
 
     # Slowed down from 3 to 2 m/s: where it is at the start, that is its largest speed, and its largest pressure.
     table = read_profile(run("slowed", {**plane, "Body force": "-10; 0"}))
-    speed = table["largest_speed_m_s"]
+    speed = table["largest speed (m/s)"]
     close(speed[at_start >= 0.02], np.sqrt(10), "largest speed of what slows down")
     check(0 < np.min(speed[speed > 0]) < 3, "nothing is reached late")
-    close(table["largest_impact_pressure_Pa"] / 2000, speed**2, "largest impact pressure over density of what slows down")
+    close(table["largest impact pressure (Pa)"] / 2000, speed**2, "largest impact pressure over density of what slows down")
 
 
 def geo_tiff():

@@ -14,7 +14,7 @@ from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 from scree.pictures.tables import render_probe
 from scree.results import read_points, read_statistics, read_table, read_times
 
-from case_tools import check, rows_of, run
+from case_tools import check, run
 
 DRY = {"End time": 0.12, "Mesh/Upper corner": "1.6, 0.8", "Mesh/Cell size": 0.1, "Boundaries/Bottom": "friction 30",
        "Soil/Region": "x < 0.5 && y < 0.5", "Soil/Points per cell": 4, "Soil/Initial state/Type": "K0", "Soil/Initial state/K0": 0.683,
@@ -22,18 +22,7 @@ DRY = {"End time": 0.12, "Mesh/Upper corner": "1.6, 0.8", "Mesh/Cell size": 0.1,
        "Output/Graphics": "points", "Probes/Places": "toe: 0.45, 0.03; far: 1.5, 0.7", "Probes/Lines": "base: 0, 0.02 to 1.6, 0.02; mid: 0.2, 0 to 0.2, 0.8",
        "Probes/Verticals": "crest: 0.1", "Probes/Front thickness": 0.05, "Probes/Wall forces": "true"}
 WATER = {"Water/Region": "x < 0.7 && y < 0.4", "Water/Hydraulic conductivity": 5e-3, "Water/Pressure/Relative tolerance": 1e-12}
-FILES = ["probe_" + name for name in ("toe", "far", "base", "mid", "crest", "front")]
-
-
-def same_in_csv(results, name, columns):
-    """A table and its .csv have the same rows; some columns of the latter have these names."""
-    table = read_table(results / name)
-    rows = rows_of(results / f"{name}.csv")
-    check(len(rows) == len(next(iter(table.values()))) and len(rows[0]) == len(table), f"{name}.csv: another size")
-    for column, (head, values) in zip(rows[0], table.items()):
-        others = [float(row[column]) for row in rows]
-        check(np.allclose(values, others, rtol=1e-11, atol=0, equal_nan=True), f"{name}.csv, {column}: {others}, not {head}: {values}")
-    check(set(columns) <= set(rows[0]), f"{name}.csv has the columns {list(rows[0])}")
+FILES = [f"probe_{name}.csv" for name in ("toe", "far", "base", "mid", "crest", "front")]
 
 
 def data_in_vtk(picture):
@@ -96,27 +85,23 @@ def dry():
     same on two ranks, and after a resume."""
     one = run("one", DRY)
     balance_of_momentum(one)
-    toe, far = read_table(one / "probe_toe"), read_table(one / "probe_far")
+    toe, far = read_table(one / "probe_toe.csv"), read_table(one / "probe_far.csv")
     check(np.all(toe["Mean effective stress (Pa)"] > 0) and toe["Velocity x (m/s)"][-1] > 0.005, "the toe bears and slides")
     check(np.all(np.isnan(far["Velocity x (m/s)"])), "nothing is far off")
-    crest, front = read_table(one / "probe_crest"), read_table(one / "probe_front")
+    crest, front = read_table(one / "probe_crest.csv"), read_table(one / "probe_front.csv")
     check(abs(crest["Surface height (m)"][0] - 0.5) < 1e-9 and crest["Surface height (m)"][-1] < 0.5, "the crest sinks")
     check(abs(crest["Thickness (m)"][0] - 0.5) < 1e-9, "thickness at the start")
     check(np.all(front["Rear (m)"] == 0) and front["Front (m)"][-1] > front["Front (m)"][0], "the front advances")
-    base = read_table(one / "probe_base")
+    base = read_table(one / "probe_base.csv")
     check(len(base["x (m)"]) == 3 * 33 and len(set(base["Time (s)"])) == 3, "33 places, of half a cell, in three pictures")
     check(np.allclose(base["x (m)"], np.tile(np.linspace(0, 1.6, 33), 3), atol=1e-9), "places from end to end of the line")
     check(np.allclose(base["Distance (m)"], base["x (m)"], atol=1e-9) and np.all(base["y (m)"] == 0.02), "distances from the first end")
 
-    same_in_csv(one, "statistics", ["time_s", "step", "momentum_x_Ns", "kinetic_energy_J", "front_90_m", "front_99_5_m", "stress_oscillation", "bottom_soil_y_N"])
-    for name, columns in (("toe", ["time_s", "velocity_x_m_s", "effective_stress_xx_Pa", "porosity"]), ("far", []), ("base", ["distance_m", "x_m"]),
-                          ("front", ["rear_m"])):
-        same_in_csv(one, "probe_" + name, columns)
     fields_in_vtk(one)
     for name in ("toe", "base"):
         render_probe(one, name, f"{name}.png")
         check(pathlib.Path(f"{name}.png").stat().st_size > 10000, f"a picture of {name}")
-    stale = pathlib.Path("two", "results", "probe_stale")
+    stale = pathlib.Path("two", "results", "probe_stale.csv")
     stale.parent.mkdir(parents=True, exist_ok=True)
     stale.write_text("of an earlier run", encoding="utf-8")
     two = run("two", DRY, ranks=2)
@@ -124,7 +109,7 @@ def dry():
     compare(one, two, 1e-6)
     for folder in (one, two):
         displacements(folder)
-    files = [name + ending for name in [*FILES, "statistics"] for ending in ("", ".csv")]
+    files = [*FILES, "statistics.csv"]
     before = {name: (one / name).read_bytes() for name in files}
     run("one", DRY, "--resume")
     check(all((one / name).read_bytes() == before[name] for name in files), "a resumed run ends with the same files")
@@ -157,9 +142,9 @@ def edges():
         "Soil/Initial state/Type": "K0", "Soil/Initial state/K0": 0.683, "Output/Interval": 0.005, "Output/Graphics": "none",
         "Probes/Places": "toe: 0.1, 0.1, 0.1", "Probes/Verticals": "crest: 0.1, 0.2", "Probes/Front thickness": 0.1, "Probes/Wall forces": "true"})
     balance_of_momentum(results, "xyz")
-    crest = read_table(results / "probe_crest")
+    crest = read_table(results / "probe_crest.csv")
     check(abs(crest["Surface height (m)"][0] - 0.4) < 1e-9 and abs(crest["Thickness (m)"][0] - 0.4) < 1e-9, "height in 3D")
-    check(abs(read_table(results / "probe_toe")["Velocity x (m/s)"][0] + 0.2) < 1e-9, "velocity at the start")
+    check(abs(read_table(results / "probe_toe.csv")["Velocity x (m/s)"][0] + 0.2) < 1e-9, "velocity at the start")
 
 
 def displacements(results):
@@ -189,12 +174,12 @@ def water():
         "Water/Region": "y < 0.5", "Output/Interval": 0.01, "Probes/Places": "gauge: 0.13, 0.2", "Probes/Verticals": "crest: 0.1",
         "Probes/Lines": "base: 0, 0 to 0, 0.4; mid: 0.2, 0.1 to 0.2, 0.7", "Probes/Front thickness": 0.05, "Probes/Wall forces": "true"})
     weight = 1000 * 9.81
-    gauge, base, walls = read_table(still / "probe_gauge"), read_table(still / "probe_base"), read_statistics(still)
+    gauge, base, walls = read_table(still / "probe_gauge.csv"), read_table(still / "probe_base.csv"), read_statistics(still)
     check(np.allclose(gauge["Pore pressure (Pa)"], 0.3 * weight, rtol=1e-4), "p in still water")  # 5e-5: points are no exact rule for the mass
     check(np.allclose(base["Pore pressure (Pa)"], (0.5 - base["y (m)"]) * weight, atol=5e-5 * weight), "p along the wall")
-    crest = read_table(still / "probe_crest")["Water level (m)"]
+    crest = read_table(still / "probe_crest.csv")["Water level (m)"]
     check(np.allclose(crest, 0.5, atol=1e-6), f"water level {crest}")
-    mid = read_table(still / "probe_mid")
+    mid = read_table(still / "probe_mid.csv")
     check(np.array_equal(np.isnan(mid["Pore pressure (Pa)"]), mid["y (m)"] > 0.54), "nan above the water")
     for wall, sign, wanted in (("Left", -1, 0.125), ("Right", 1, 0.125), ("Bottom", -1, 0.2)):
         axis = "y" if wall == "Bottom" else "x"

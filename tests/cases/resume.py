@@ -63,7 +63,7 @@ def changes():
             print(f"{entries}: {error}")
             if (entries, wanted) in REFUSED[case]:
                 check(code == 1 and wanted in error and error.count("\n") == 1, f"{entries}: exit code {code}, {error}, without {wanted}")
-                check((results / "statistics").read_bytes() == (whole / "statistics").read_bytes(), f"{entries}: the statistics have changed")
+                check((results / "statistics.csv").read_bytes() == (whole / "statistics.csv").read_bytes(), f"{entries}: the statistics have changed")
             else:
                 noted = "".join(line for line in log_of(results).splitlines() if "Changed from here on" in line)
                 check(code == 0 and noted == (f"Changed from here on: {wanted}" if wanted else ""), f"{entries}: exit code {code}, {error}, noted: {noted}")

@@ -34,7 +34,7 @@ def go_on(folder, text, ranks):
 
 
 def statistics(*folders):
-    return [str(folder / "statistics") for folder in folders]
+    return [str(folder / "statistics.csv") for folder in folders]
 
 
 def restart(same, other, ranks=2):

@@ -36,7 +36,7 @@ def trials(folder):
 
 def bracket(rows):
     """(largest factor that rests, smallest one that fails)."""
-    return max(row["factor"] for row in rows if row["rests"] == 1), min(row["factor"] for row in rows if row["rests"] == 0)
+    return max(row["Factor (-)"] for row in rows if row["Rests (-)"] == 1), min(row["Factor (-)"] for row in rows if row["Rests (-)"] == 0)
 
 
 def factor():
@@ -45,7 +45,7 @@ def factor():
     rows = trials(results)
     rests, fails = bracket(rows)
     print(f"one rank: between {rests:g} and {fails:g}, {len(rows)} trials")
-    check(rows[0]["factor"] == 0.25 and rows[0]["rests"] == 1, "the first row is not that of the settled state")
+    check(rows[0]["Factor (-)"] == 0.25 and rows[0]["Rests (-)"] == 1, "the first row is not that of the settled state")
     check(fails - rests <= 0.05, "the bracket is wider than the tolerance")
     check(abs(0.5 * (rests + fails) / 1.4 - 1) < 0.03, "the factor deviates from 1.4 by 3 % or more")
     for end in ("rests", "fails"):

@@ -20,9 +20,9 @@ def slope(**entries):
                                          "Settling/Maximum time": 20, "End time": 3, **entries})
 
 
-def fall(table, name="potential_energy_J"):
+def fall(table, name="Potential energy (J)"):
     """From the first row to the last one, in m of the whole soil."""
-    return (float(table[0][name]) - float(table[-1][name])) / (float(table[0]["mass_kg"]) * GRAVITY)
+    return (float(table[0][name]) - float(table[-1][name])) / (float(table[0]["Mass (kg)"]) * GRAVITY)
 
 
 def weak():
@@ -45,7 +45,7 @@ def phases():
     check("does not stand" not in text and re.search(r"displacement while\s+settling", text), "the slope moves while it settles")
     check('Changed from here on: subsection Safety, entry "Strength factor" = 1.8, before 1.' in text, "the factor does not act at the release")
     slid = rows_of(folder / "statistics.csv")
-    check(float(slid[0]["time_s"]) == 0 and float(slid[0]["kinetic_energy_J"]) == 0, "the first row is not that of the release")
+    check(float(slid[0]["Time (s)"]) == 0 and float(slid[0]["Kinetic energy (J)"]) == 0, "the first row is not that of the release")
     stood = rows_of(run("slide", slope(**{"Safety/Strength factor": 1.2}), "--resume") / "statistics.csv")
     check(log_of(folder).count("Settled for") == 1 and 'entry "Strength factor" = 1.2' in log_of(folder), "the slope settles again")
     print(f"centre of mass falls by {fall(slid):g} m with 1.8 and by {fall(stood):g} m with 1.2")

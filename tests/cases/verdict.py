@@ -45,7 +45,7 @@ def beyond(results, kind):
 
 
 def last_row(results):
-    return {name: values[-1] for name, values in read_table(results / "statistics").items()}
+    return {name: values[-1] for name, values in read_table(results / "statistics.csv").items()}
 
 
 def slide():
@@ -91,7 +91,7 @@ def rest():
 def stress():
     """Passive earth pressure, with p' of 2.5 times the weight of the soil, is within bounds; the same in all directions is not."""
     passive = layer("passive", **{"Soil/Initial state/K0": 3.6})
-    row = read_table("passive/results/statistics")
+    row = read_table("passive/results/statistics.csv")
     check(max(row["Largest effective stress (Pa)"]) > 2.2 * 1500 * 9.81 * 1.05, "p' is not passive")
     within = found("passive/results")["largest stress"]
     check(0.9 < float(within.value.split()[0]) < 1 and not within.is_exceeded and "largest stress" in passive.parts["Checks"], passive.parts["Checks"])
@@ -166,7 +166,7 @@ def oscillation():
                     **{f"{name}/{entry.removeprefix('Soil/')}": value for entry, value in LAYER.items() if entry.startswith("Soil/") and "Region" not in entry and "Initial" not in entry}}
     results = run("stripes", {**{entry: value for entry, value in LAYER.items() if not entry.startswith("Soil/")}, **stripes, "End time": 1e-3,
                               "Output/Statistics interval": 1e-4})
-    table, one = read_table(results / "statistics"), found(results)["Stress oscillation"]
+    table, one = read_table(results / "statistics.csv"), found(results)["Stress oscillation"]
     check(abs(float(one.value) / np.mean(table["Stress oscillation (-)"][1:]) - 1) < 0.01, f"{one.value} is not the mean over time")
     check(one.bound == "0.2" and "Stress oscillation" in beyond(results, "resolution"), str(one))
 

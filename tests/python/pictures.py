@@ -85,7 +85,7 @@ def check_ground(run):
 
 def check_title(run):
     """A trial of --safety has its factor: the largest at which the slope rests, the smallest at which it fails."""
-    (run / "safety.csv").write_text("factor,rests,displacement_m\n1,1,0.1\n1.3,1,0.1\n1.4,0,0.2\n1.69,0,0.3\n", encoding="utf-8")
+    (run / "safety.csv").write_text("Factor (-),Rests (-),Displacement (m)\n1,1,0.1\n1.3,1,0.1\n1.4,0,0.2\n1.69,0,0.3\n", encoding="utf-8")
     assert panels._title(run / "rests", 0.) == "strength divided by 1.3: the slope rests"
     assert panels._title(run / "fails", 0.) == "strength divided by 1.4: the slope fails"
     assert panels._title(run, 2.5) == "t = 2.5 s"

@@ -65,8 +65,8 @@ def folder(log, fault=1, coarse=1):
     (run / "log.txt").write_text(log, encoding="utf-8")
     (run / "original.prm").write_text("# A slope & more.\n# Compare: front.\n\nset End time = 1 # s, <b>\n", encoding="utf-8")
     (run / "parameters.prm").write_text("set End time = 1\nset Bodies = Soil\n", encoding="utf-8")
-    (run / "statistics").write_text("# 1: Time (s)\n# 2: Front 90 % (m)\n# 3: Step\n0 1.5 0\n1 nan 500\n", encoding="utf-8")
-    (run / "probe_empty").write_text("# 1: Time (s)\n# 2: Pore pressure (Pa)\n0 nan\n", encoding="utf-8")
+    (run / "statistics.csv").write_text("Time (s),Front 90 % (m),Step\n0,1.5,0\n1,nan,500\n", encoding="utf-8")
+    (run / "probe_empty.csv").write_text("Time (s),Pore pressure (Pa)\n0,nan\n", encoding="utf-8")
     return run
 
 

@@ -11,8 +11,8 @@ from test_tools import raises, run_tests
 
 
 def test_tables():
-    head = "# 1: Time (s)\n# 2: Front 90 % (m)\n"
-    pathlib.Path("statistics").write_text(head + "0 1.5\n\n0.1 nan\n0.2 1.7 9\n0.3", encoding="utf-8")  # a row too long, one that is being written
+    head = "Time (s),Front 90 % (m)\n"
+    pathlib.Path("statistics.csv").write_text(head + "0,1.5\n0.1,nan\n0.2,1.7\n0.3,1.", encoding="utf-8")  # the last row is being written
     table = read_statistics(".")
     assert list(table) == ["Time (s)", "Front 90 % (m)"]
     np.testing.assert_array_equal(table["Time (s)"], [0., 0.1, 0.2])

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """tutorial_numbers.py [RESULTS [COMMIT]]: key numbers of the tutorials are those of doc/tutorials/numbers.csv, and those of the runs in RESULTS.
 
-A row has the page; the run folder in RESULTS; the file there, a table such as statistics or a log; the column and the time in s (empty: the last line)
+A row has the page; the run folder in RESULTS; the file there, a table such as statistics.csv or a log; the column and the time in s (empty: the last line)
 in a table, or a regular expression with one group in a log; a factor from SI to the unit on the page; the value as the page writes it; commit and date
 of the run (before 2026-11-29: of the page that has the value). A value holds within one unit of its last digit; zeros at the end of whole
 numbers do not count.

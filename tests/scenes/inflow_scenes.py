@@ -51,7 +51,7 @@ def inflow_channel(scree):
         out = np.polyfit(time[late], np.array(table["Water lost (kg)"])[late], 1)[0]
         check("channel, %s: discharge out over that in" % name, out / 1600, 1 - bound, 1 + bound)
         for place in "abc":
-            level = read_table("channel_%s/probe_%s" % (name, place))["Water level (m)"][-1]
+            level = read_table("channel_%s/probe_%s.csv" % (name, place))["Water level (m)"][-1]
             check("channel, %s: depth at %s over that at the inflow" % (name, place), level / 0.4, 1 - bound, 1 + bound)
         check_momentum("channel, " + name, table, table["Momentum entered x (N s)"][-1])
         check_gain("channel, " + name, table, over=table["Energy entered (J)"][-1])
@@ -61,7 +61,7 @@ def inflow_saturated(scree):
     """A saturated layer on a smooth floor, twice as fast as its waves: it keeps its thickness where the front has passed, and its water."""
     table = run(scree, "inflow/saturated_layer", "saturated", {})
     for place in "ab":
-        probe = read_table("saturated/probe_" + place)
+        probe = read_table(f"saturated/probe_{place}.csv")
         for what in ("Thickness (m)", "Water level (m)"):
             check("saturated layer: %s at %s over that at the inflow" % (what.lower(), place), probe[what][-1] / 0.4, 0.98, 1.02)
     check("saturated layer: water over soil that entered", table["Water entered (kg)"][-1] / table["Mass entered (kg)"][-1] * 1590 / 400, 0.98, 1.02)

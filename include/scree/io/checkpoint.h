@@ -9,6 +9,8 @@
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
 
 namespace scree
 {
@@ -27,7 +29,7 @@ namespace scree
     }
   };
 
-  /// A whole checkpoint of a run. Its head, all but the entries, is written last, as the file `manifest`, under a
+  /// A whole checkpoint of a run. All of it but the points is the file `manifest`, which is written last, under a
   /// checksum of its own.
   struct Checkpoint
   {
@@ -36,8 +38,20 @@ namespace scree
     unsigned int dimension = 0;     ///< 2 or 3
     double time            = 0;     ///< s
     std::uint64_t step     = 0;     ///< number of the time step
-    std::vector<CheckedFile> files; ///< files of the checkpoint but the manifest
     CaseEntries entries;            ///< of the case that wrote it
+    std::vector<CheckedFile> files; ///< of the ranks' points
+    Blocks blocks;                  ///< of fine cells, of all ranks, if the grid follows the points
+    std::string state;              ///< of the run but its points, as an archive
+
+    /// Saves or loads all but the folder (Boost).
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      std::string text = entries.text();
+      archive &program &dimension &time &step &text &files &blocks &state;
+      if (Archive::is_loading::value)
+        entries = CaseEntries(text);
+    }
   };
 
   using SaveState = std::function<void(boost::archive::binary_oarchive &)>; ///< writes the state of a run

@@ -125,34 +125,23 @@ namespace scree
     std::set<std::string> refused; // files that the disk does not take at the moment
   };
 
-  /// The lines `# NUMBER: NAME (UNIT)` that name the columns of a table.
-  std::string table_head(const std::vector<std::string> &columns);
-
-  /// A row of a table, with its end of line.
-  std::string table_row(const std::vector<double> &values);
-
-  /// The name of a column in a `.csv`: words in lower case, then the unit as it is, joined by `_`. `Front 90 % (m)` is
-  /// `front_90_m`, `Stress oscillation (-)` is `stress_oscillation`. In units, `/` becomes `_`, and blanks and `^` are
-  /// left out: `Momentum x (N s)` is `momentum_x_Ns`, a density in kg/m^3 ends in `_kg_m3`; % is `percent`.
-  std::string csv_name(const std::string &column);
-
-  /// The line that names the columns of a `.csv`; of equal names the second one ends in `_2`.
+  /// The line that names the columns of a table, such as `Time (s),Front 99.5 % (m)`.
   std::string csv_head(const std::vector<std::string> &columns);
 
-  /// A row of a `.csv`: numbers with 13 digits, separated by commas; `nan` where there is none.
+  /// A row of a table, with its end of line: numbers with 13 digits, separated by commas; `nan` where there is none.
   std::string csv_row(const std::vector<double> &values);
 
-  /// A table of a run that grows by rows, in two files with the same numbers: `NAME` with aligned numbers, and
-  /// `NAME.csv`. Both go on where they were when a run is resumed, see RowFile. The rank that writes holds the rows.
+  /// A table of a run that grows by rows, `NAME.csv`. It goes on where it was when a run is resumed, see RowFile. The
+  /// rank that writes holds the rows.
   class TableFile
   {
   public:
     /// @param folder is kept by reference
-    /// @param name of the first file in the folder
+    /// @param name of the file in the folder, without its ending
     TableFile(RunFolder &folder, const std::string &name)
         : folder(folder)
-        , files{ { name, table_head, table_row, RowFile(folder.file(name)) },
-                 { name + ".csv", csv_head, csv_row, RowFile(folder.file(name + ".csv")) } }
+        , name(name + ".csv")
+        , file(folder.file(this->name))
     {
     }
 
@@ -163,35 +152,34 @@ namespace scree
     /// Brings the rows to the disk, before a checkpoint counts on them.
     void sync()
     {
-      for (File &file : files)
-        folder.try_to_write(file.name, [&] { file.rows.sync(); });
+      folder.try_to_write(name, [this] { file.sync(); });
     }
 
     /// After the state has been read from a checkpoint: cuts off the rows that were written after it.
-    void cut();
+    void cut()
+    {
+      if (const std::string missing = folder.is_writer() ? file.cut() : std::string(); !missing.empty())
+        folder.log(missing);
+    }
 
     /// Writes rows that the disk did not take. Throws FileError if it still refuses them.
-    void complete();
+    void complete()
+    {
+      if (folder.is_writer() && !file.is_complete())
+        file.append("");
+    }
 
-    /// Saves or loads the state of the files (Boost).
+    /// Saves or loads the state of the file (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      for (File &file : files)
-        archive &file.rows;
+      archive &file;
     }
 
   private:
-    struct File
-    {
-      std::string name;
-      std::string (*head)(const std::vector<std::string> &columns);
-      std::string (*row)(const std::vector<double> &values);
-      RowFile rows;
-    };
-
     RunFolder &folder;
-    std::vector<File> files;
+    const std::string name;
+    RowFile file;
   };
 } // namespace scree
 

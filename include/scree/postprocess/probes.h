@@ -115,7 +115,7 @@ namespace scree
     double time;                             ///< s
   };
 
-  /// The files `probe_NAME` and `probe_NAME.csv`: tables like `statistics`, a row a time; those of lines have a row a
+  /// The files `probe_NAME.csv`: tables like `statistics.csv`, a row a time; those of lines have a row a
   /// place and time.
   template <int dim>
   class Probes

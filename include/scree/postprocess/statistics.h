@@ -261,7 +261,7 @@ namespace scree
     }
   };
 
-  /// The rows of the files `statistics` and `statistics.csv`: global numbers at each due time.
+  /// The rows of the file `statistics.csv`: global numbers at each due time.
   template <int dim>
   class Statistics
   {

@@ -269,9 +269,9 @@ namespace scree
     {
       const std::string path = parameters.output_directory + '/';
       return parameters.output.graphics_kind() == Pictures::none
-                 ? path + "statistics, log.txt"
+                 ? path + "statistics.csv, log.txt"
                  : path + "solution/" + (scene.bodies.empty() ? "water" : "points") +
-                       ".pvd (ParaView), statistics, log.txt";
+                       ".pvd (ParaView), statistics.csv, log.txt";
     }
 
     const Parameters &parameters;

@@ -352,12 +352,8 @@ def render_profiles(run, names, output):
 
 
 def read_profile(path):
-    """{"x": values, "largest_thickness": values, ...} of a table of columns such as "largest thickness (m)" or "largest_thickness_m"; SI units."""
-    head, *lines = path.read_text(encoding="utf-8").splitlines()
-    words = [word.strip().replace(" ", "_") for word in head.split(",")]
-    known = sorted([*KINDS, "x"], key=len, reverse=True)
-    names = [next((name for name in known if word == name or word.startswith(name + "_")), word) for word in words]
-    return dict(zip(names, np.array([[float(word) for word in line.split(",")] for line in lines if line]).reshape(-1, len(names)).T))
+    """{"x": values, "largest_thickness": values, ...} of a table of columns such as "largest thickness (m)"; SI units."""
+    return {results.split_unit(name)[0].replace(" ", "_"): values for name, values in results.read_table(path).items()}
 
 
 def _ends(x, inside):

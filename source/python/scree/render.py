@@ -40,8 +40,8 @@ def default_field(run, collection):
 def draw_probes(arguments):
     """Draws the probes that the command line names. Throws OSError or ValueError."""
     for name in arguments.probe.split(","):
-        if not (arguments.run / f"probe_{name}").exists():
-            there = sorted(path.name[len("probe_"):] for path in arguments.run.glob("probe_*") if not path.suffix)
+        if not (arguments.run / f"probe_{name}.csv").exists():
+            there = sorted(path.stem[len("probe_"):] for path in arguments.run.glob("probe_*.csv"))
             raise ValueError(f"{arguments.run} has no probe {name}; there are: {', '.join(there) or 'none'}.")
         output = _output(arguments, f"probe_{name}")
         render_probe(arguments.run, name, output)
@@ -136,7 +136,7 @@ def draw(arguments):
     for collection, output in outputs.items():
         render_points(arguments.run, output, chosen[collection], times, limits, collection, view)
         print(f"Wrote {output}")
-    if (arguments.run / "statistics").exists() and render_statistics(arguments.run, statistics, panels_of_statistics):
+    if (arguments.run / "statistics.csv").exists() and render_statistics(arguments.run, statistics, panels_of_statistics):
         print(f"Wrote {statistics}")
 
 

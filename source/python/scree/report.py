@@ -90,7 +90,7 @@ def verdict(run, log):
 
 
 def _last_time(run):
-    statistics = results.read_statistics(run) if (pathlib.Path(run) / "statistics").exists() else {}
+    statistics = results.read_statistics(run) if (pathlib.Path(run) / "statistics.csv").exists() else {}
     times = statistics.get("Time (s)", [])
     end = variants.read_entries(pathlib.Path(run) / "parameters.prm").get("End time", "?")
     return f"the last row of statistics is at t = {times[-1]:g} s, the end time is {end} s" if len(times) else "there are no statistics"
@@ -104,7 +104,7 @@ def warnings(log):
 
 def final_statistics(run):
     """Table of the first and the last row of the statistics."""
-    if not (pathlib.Path(run) / "statistics").exists():
+    if not (pathlib.Path(run) / "statistics.csv").exists():
         return "<p>There are no statistics.</p>"
     rows = []
     for name, values in results.read_statistics(run).items():
@@ -159,7 +159,7 @@ def picture_commands(run, field, times):
         if (run / "solution" / f"{collection}.pvd").exists():
             asked = ["--field", field] if field and collection == "points" else []
             commands["points"].append((caption, "render", ["--collection", collection, *asked, *at_times]))
-    for probe in sorted(path.name[len("probe_"):] for path in run.glob("probe_*") if not path.suffix):
+    for probe in sorted(path.stem[len("probe_"):] for path in run.glob("probe_*.csv")):
         commands["charts"].append((f"Probe {probe}", "render", ["--probe", probe]))
     if maps.map_files(run):
         commands["maps"].append(("Maps", "maps", []))

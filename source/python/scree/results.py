@@ -108,8 +108,8 @@ def read_points(run, time=None, collection="points"):
 
 
 def read_statistics(run):
-    """The columns of the statistics file, see `read_table`."""
-    return read_table(pathlib.Path(run) / "statistics")
+    """The columns of statistics.csv, see `read_table`."""
+    return read_table(pathlib.Path(run) / "statistics.csv")
 
 
 class Log(NamedTuple):
@@ -165,17 +165,9 @@ def read_checks(run):
 
 
 def read_table(path):
-    """The columns of a table of a run: {"Time (s)": values, ...}. A line that is not complete yet is left out."""
-    names, rows = [], []
-    with open(path, encoding="utf-8") as file:
-        for line in file:
-            header = re.match(r"#\s*\d+:\s*(.*\S)", line)
-            if header:
-                names.append(header.group(1))
-            elif line.strip() and not line.startswith("#"):
-                values = [_number(word) for word in line.split()]
-                if len(values) >= len(names):
-                    rows.append(values[:len(names)])
+    """The columns of a table of a run, such as statistics.csv: {"Time (s)": values, ...}. A line that is not complete yet is left out."""
+    with open(path, encoding="utf-8", newline="") as file:
+        names, *rows = [*csv.reader(line for line in file if line.endswith("\n"))] or [[]]
     return dict(zip(names, np.array(rows, dtype=float).reshape(len(rows), len(names)).T))
 
 

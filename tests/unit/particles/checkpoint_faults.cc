@@ -163,7 +163,7 @@ void test_files()
 {
   RandomNumbers random;
   const std::string checksum = "is not what was written (its checksum differs)";
-  std::vector<std::string> files{ "manifest", "entries", "state" };
+  std::vector<std::string> files{ "manifest" };
   for (unsigned int rank = 0; rank < Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD); ++rank)
     files.push_back("points." + std::to_string(rank));
   for (const std::string &name : files)
@@ -193,7 +193,7 @@ void test_files()
         fs::copy_file(from, file, fs::copy_options::overwrite_existing);
       };
       test([&] { overwrite(older + name); }, checksum, "belongs to step 1, not to this folder");
-      test([&] { overwrite(newer + (name == "state" ? "entries" : "state")); }, size, checksum);
+      test([&] { overwrite(newer + (name == "manifest" ? "points.0" : "manifest")); }, size, checksum);
     }
 }
 
@@ -218,7 +218,7 @@ void test_folders()
         fs::copy(older, newer, fs::copy_options::recursive);
       },
       not_used + newer + "manifest: belongs to step 1, not to this folder. Step 1");
-  test_damage([] { flip(older + "state", 0.5); }, "Step 2");
+  test_damage([] { flip(older + "points.0", 0.5); }, "Step 2");
   test_damage([] { fs::copy(older, "run/checkpoint/unfinished"); }, "Step 2");
   test_damage([] { fs::create_directory("run/checkpoint/step-9a"); }, "Step 2");
   const std::string faults  = newer + "points.0: is not what was written (its checksum differs). ",
@@ -291,7 +291,7 @@ void test_full_disk()
                   "full/checkpoint/step-1.";
   };
   for (const auto &[n_bytes, file] :
-       std::map<rlim_t, std::string>{ { 0, "entries" }, { 30, "points.0" }, { 150, "points.0" }, { 10000, "" } })
+       std::map<rlim_t, std::string>{ { 0, "points.0" }, { 150, "points.0" }, { 10000, "" } })
     for (int full_rank = -1; full_rank < int(Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)); ++full_rank)
       {
         const bool is_full      = full_rank < 0 || int(rank) == full_rank; // below 0: all ranks

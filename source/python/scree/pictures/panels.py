@@ -134,9 +134,10 @@ def _title(run, time):
     trials = run.parent / "safety.csv"
     if run.name not in ("rests", "fails") or not trials.exists():
         return f"t = {time:.4g} s"
-    table = np.atleast_1d(np.genfromtxt(trials, delimiter=",", names=True))
+    table = results.read_table(trials)
     # The folders have the trials beside the factor of safety.
-    factor = np.max(table["factor"][table["rests"] == 1]) if run.name == "rests" else np.min(table["factor"][table["rests"] == 0])
+    factors, rests = table["Factor (-)"], table["Rests (-)"]
+    factor = np.max(factors[rests == 1]) if run.name == "rests" else np.min(factors[rests == 0])
     return f"strength divided by {factor:.4g}: the slope {run.name}"
 
 

@@ -48,7 +48,7 @@ def _raster(file, places, origin):
 
 def displacement(run, subsection, time, dim):
     """How far an obstacle has moved, m, from the statistics of the run."""
-    file = pathlib.Path(run) / "statistics"
+    file = pathlib.Path(run) / "statistics.csv"
     statistics = results.read_statistics(run) if subsection != "Bed" and file.exists() else {}
     ways = [f"{subsection} displacement {axis} (m)" for axis in "xyz"[:dim]]
     return np.array([np.interp(time, statistics["Time (s)"], statistics[way]) if way in statistics else 0. for way in ways])

@@ -134,7 +134,7 @@ def _by_unit(columns):
 
 def render_probe(run, name, output):
     """A probe in one PNG: of a line, each quantity along it, a curve a time; of others, all columns against time."""
-    table = results.read_table(pathlib.Path(run) / f"probe_{name}")
+    table = results.read_table(pathlib.Path(run) / f"probe_{name}.csv")
     shown = [key for key in table if key not in ("Time (s)", "Distance (m)", "x (m)", "y (m)", "z (m)") and np.any(np.isfinite(table[key]))]
     if not shown:
         raise ValueError(f"probe_{name} has no numbers: there was never material.")

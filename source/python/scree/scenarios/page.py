@@ -65,7 +65,7 @@ def _checks(verdict):
 
 
 def column(result):
-    """The name of a column: "run_out_m", "largest_speed_m_s", as in statistics.csv."""
+    """The name of a column: "run_out_m", "largest_speed_m_s"."""
     unit = result.unit.replace("^", "").replace("/", "_")
     return result.key + (f"_{unit}" if unit != "-" else "")
 

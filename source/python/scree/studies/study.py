@@ -138,8 +138,8 @@ class Run:
 
     @functools.cached_property
     def columns(self):
-        """The file `statistics`, {"Time (s)": values, ...}: {} if the run broke before its first row."""
-        return results.read_statistics(self.folder) if (self.folder / "statistics").exists() else {}
+        """The file `statistics.csv`, {"Time (s)": values, ...}: {} if the run broke before its first row."""
+        return results.read_statistics(self.folder) if (self.folder / "statistics.csv").exists() else {}
 
     def statistics(self, name):
         """A column by its whole name; a KeyError lists the names if there is none. For one that not all runs have:

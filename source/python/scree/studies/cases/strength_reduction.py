@@ -7,6 +7,7 @@ import numpy as np
 
 from scree.closed_forms import slip_circle_factor
 from scree.pictures.tables import name_lines
+from scree.results import read_table
 from scree.studies.charts import Curves
 from scree.studies.study import Study, Variant
 from scree.studies.words import tabled
@@ -78,10 +79,10 @@ def variants():
 
 
 def measure(run):
-    trials = np.atleast_1d(np.genfromtxt(run.folder / "safety" / "safety.csv", delimiter=",", names=True))
-    rests, fails = np.max(trials["factor"][trials["rests"] == 1]), np.min(trials["factor"][trials["rests"] == 0])
-    return {"factor": 0.5 * (rests + fails), "rests": rests, "fails": fails, "trials": len(trials),
-            "steps": np.sum(trials["steps"])}
+    trials = read_table(run.folder / "safety" / "safety.csv")
+    factors, is_at_rest = trials["Factor (-)"], trials["Rests (-)"] == 1
+    rests, fails = np.max(factors[is_at_rest]), np.min(factors[~is_at_rest])
+    return {"factor": 0.5 * (rests + fails), "rests": rests, "fails": fails, "trials": len(factors), "steps": np.sum(trials["Steps (-)"])}
 
 
 def deviation(row):
