@@ -25,10 +25,9 @@ namespace scree
       : field(grid)
       , transfer(grid, transfer, stabilisation)
       , bodies(bodies)
+      , loads(loads)
       , group(group)
   {
-    for (auto &load : loads)
-      this->loads.emplace_back(grid, load);
     for (const auto &body : bodies)
       if (moves(body) && is_averaged(body) && !nonlocal)
         nonlocal = std::make_unique<NonlocalAverage<dim>>(grid);
@@ -107,7 +106,7 @@ namespace scree
     for (auto &body : bodies)
       sets.push_back(&body.points);
     for (auto &one : loads)
-      sets.push_back(&one.surface_load().points());
+      sets.push_back(&one.points());
   }
 
   template class SolidPhase<2>;

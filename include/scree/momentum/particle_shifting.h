@@ -2,6 +2,7 @@
 #ifndef scree_momentum_particle_shifting_h
 #define scree_momentum_particle_shifting_h
 
+#include <scree/bodies/phases.h>
 #include <scree/boundary/constraints.h>
 #include <scree/pressure/pore_pressure.h>
 

@@ -3,7 +3,7 @@
 #define scree_momentum_solid_phase_h
 
 #include <scree/step/step_report.h>
-#include <scree/momentum/load_transfer.h>
+#include <scree/momentum/surface_load.h>
 #include <scree/transfer/nonlocal_average.h>
 #include <scree/transfer/transfer.h>
 
@@ -76,7 +76,7 @@ namespace scree
 
     Transfer<dim> transfer;
     std::list<SoilBody<dim>> &bodies;
-    std::list<LoadTransfer<dim>> loads;
+    std::list<SurfaceLoad<dim>> &loads;
     std::unique_ptr<NonlocalAverage<dim>> nonlocal; // null if no body's law needs it
     const unsigned int group;
     double load_time = 0;        // s; the step's start until add_loads()

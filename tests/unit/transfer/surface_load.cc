@@ -6,7 +6,7 @@
 // markers' shape functions a node that soil just reaches is pushed by several times what its soil bears.)
 #include "../soil.h"
 
-#include <scree/momentum/load_transfer.h>
+#include <scree/momentum/surface_load.h>
 #include <scree/transfer/transfer.h>
 
 namespace test_surface_load
@@ -38,9 +38,8 @@ void test_patch(const std::string &basis,
   const double time = 2, step = 0.01;
   NodalField<dim> field(grid);
   field.clear();
-  LoadTransfer<dim> transfer(grid, load);
-  transfer.find_areas({}); // Without soil the markers' shape functions hand the force on.
-  const Tensor<1, dim> sum = sum_of_ranks(transfer.add_to(field, time));
+  load.find_areas({}); // Without soil the markers' shape functions hand the force on.
+  const Tensor<1, dim> sum = sum_of_ranks(load.add_to(field, time));
   field.add_contributions();
   expect((sum - force).norm() / force.norm(), 0., 1e-12, "error of the force");
 
@@ -65,7 +64,7 @@ void test_patch(const std::string &basis,
 
   std::vector<Point<dim>> before;
   for_each_point(load.points(), [&](const auto &marker) { before.push_back(marker.location); });
-  const double work = transfer.move(field, time, step);
+  const double work = load.move(field, time, step);
   auto from         = before.begin();
   for_each_point(load.points(), [&](const auto &marker) {
     Point<dim> expected = *from + step * velocity(*from);
@@ -103,11 +102,10 @@ void test_balance(const double above)
   load.points().hand_over();
 
   constexpr unsigned int force = NodalField<dim>::force + dim - 1;
-  LoadTransfer<dim> load_transfer(scene.grid, load);
-  load_transfer.find_areas(scene.bodies);
+  load.find_areas(scene.bodies);
   NodalField<dim> of_load(scene.grid), of_stress(scene.grid);
   of_load.clear();
-  load_transfer.add_to(of_load, 0.);
+  load.add_to(of_load, 0.);
   of_load.add_contributions();
   of_stress.clear();
   TransferParameters flip;
