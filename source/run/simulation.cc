@@ -56,8 +56,8 @@ namespace scree
         parameters.start_folder.empty() ? parameters.output_directory : parameters.start_folder,
         [this](const std::string &line) { folder.log(line); },
         communicator);
-    const std::vector<std::string> notes =
-        notes_on_changes(checkpoint, parameters.entries(), start == Start::new_stage);
+    const std::vector<std::string> notes = notes_on_changes(
+        checkpoint, parameters.entries(), start == Start::new_stage || !parameters.start_folder.empty());
     load_checkpoint(checkpoint, scene.grid, point_sets(), [&](auto &archive) { serialize_state(archive); });
     require_entry(!(parameters.end_time < clock.time()),
                   { "", "End time", parameters.end_time },
@@ -92,10 +92,10 @@ namespace scree
     const std::string unit   = dim == 2 ? " kg/m" : " kg";
     const StageMasses masses = scene.begin_stage();
     if (!parameters.stage.removed.empty())
-      folder.log("Removed     soil " + short_text(masses.removed_soil) + unit +
-                 (scene.water.empty() ? "" : ", water " + short_text(masses.removed_water) + unit));
+      folder.log("Removed     soil " + number_text(masses.removed_soil) + unit +
+                 (scene.water.empty() ? "" : ", water " + number_text(masses.removed_water) + unit));
     if (!parameters.stage.adds.empty())
-      folder.log("Added       soil " + short_text(masses.added_soil) + unit);
+      folder.log("Added       soil " + number_text(masses.added_soil) + unit);
     require_entry(parameters.stage.removed.empty() || masses.removed_soil + masses.removed_water > 0.,
                   { "Stage", "Remove", parameters.stage.removed },
                   "no point is there. Look at the expression.");
@@ -661,7 +661,10 @@ namespace scree
                " steps; " + name_of_ratio + number_text(ratio) + (is_released ? ". Released." : ". Asked to stop."));
     if (is_released)
       {
-        const auto checks = checks_of_settling(ratio);
+        auto checks = checks_of_settling(ratio);
+        for (CheckResult &check : checks)
+          if (!parameters.stage.name.empty())
+            check.name += ", " + parameters.stage.name;
         for (const CheckResult &check : checks)
           if (check.is_exceeded)
             folder.log("Check: " + check.name + ' ' + check.value + ", bound " + check.bound + ": " + check.remedy +

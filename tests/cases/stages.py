@@ -11,9 +11,9 @@ from scree.variants import set_entries
 GRAVITY, DENSITY = 9.81, 1600
 CASE = set_entries("", {
     "End time": 0.1, "Output directory": "results", "Bodies": "Soil, Fill", "Mesh/Upper corner": "6, 6", "Mesh/Cell size": 0.5,
-    "Soil/Region": "y < 4", "Soil/Points per cell": 2, "Soil/Dry unit weight": DENSITY * GRAVITY, "Soil/Initial porosity": 0.4,
+    "Soil/Region": "y < 4", "Soil/Points per cell": 2, "Soil/Dry unit weight": DENSITY * GRAVITY, "Soil/Initial porosity": 0.4, "Soil/Material": "Mohr-Coulomb",
     "Soil/Mohr-Coulomb/Cohesion": 1e4, "Soil/Mohr-Coulomb/Tension cut-off": 1e4, "Soil/Mohr-Coulomb/Friction angle": 30, "Soil/Initial state/Type": "K0",
-    "Fill/Region": "y > 4 && y < 5 && x > 3", "Fill/Points per cell": 2, "Fill/Dry unit weight": DENSITY * GRAVITY, "Fill/Initial porosity": 0.4,
+    "Fill/Region": "y > 4 && y < 5 && x > 3", "Fill/Points per cell": 2, "Fill/Dry unit weight": DENSITY * GRAVITY, "Fill/Initial porosity": 0.4, "Fill/Material": "Mohr-Coulomb",
     "Fill/Mohr-Coulomb/Cohesion": 1e4, "Fill/Mohr-Coulomb/Tension cut-off": 1e4, "Fill/Mohr-Coulomb/Friction angle": 30,
     "Boundaries/Bottom": "fixed", "Settling/Maximum time": 10, "Output/Statistics interval": 0.05, "Output/Graphics": "none",
     "Stage Dig/Remove": "x < 2 && y > 3", "Stage Lay/Add": "Fill", "Stage Lay/Duration": 0.2})
@@ -29,7 +29,7 @@ def books():
     folder = run("books", CASE)
     rows = rows_of(folder / "statistics.csv")
     first, end, text = {k: float(v) for k, v in rows[0].items()}, last(folder), " ".join(log_of(folder).split())
-    check(abs(end["Mass removed (kg)"] / DUG - 1) < 1e-12 and abs(end["Mass added (kg)"] / LAID - 1) < 1e-12, f"{end['mass_removed_kg']}, {end['mass_added_kg']} kg")
+    check(abs(end["Mass removed (kg)"] / DUG - 1) < 1e-12 and abs(end["Mass added (kg)"] / LAID - 1) < 1e-12, f"{end['Mass removed (kg)']}, {end['Mass added (kg)']} kg")
     check(abs(end["Mass (kg)"] - (first["Mass (kg)"] - DUG + LAID)) < 1e-9 * end["Mass (kg)"], "the mass is not that of the stages")
     check(abs(end["Time (s)"] - 0.3) < 1e-12 and text.count("Settled for") == 3, "times of the stages")
     check("Stage Dig, from t = 0.1 to 0.1 s Removed soil 3200 kg/m" in text and "Stage Lay, from t = 0.1 to 0.3 s Added soil 4800 kg/m" in text, text[-3000:])
@@ -38,8 +38,8 @@ def books():
 
 def goes_on():
     """A run that was stopped within a stage goes on to the same end; one that was stopped at its start begins it again."""
-    whole = last(run("whole", CASE + "subsection Output\n  set Checkpoint interval = 0.05\nend\n"))
-    folder = run("part", CASE + "subsection Output\n  set Checkpoint interval = 0.05\nend\n")
+    whole = last(run("whole", set_entries(CASE, {"Output/Checkpoint interval": 0.05})))
+    folder = run("part", set_entries(CASE, {"Output/Checkpoint interval": 0.05}))
     checkpoints = sorted((folder / "checkpoint").iterdir(), key=lambda path: int(path.name.split("-")[1]))
     check(len(checkpoints) > 1, f"{len(checkpoints)} checkpoints")
     shutil.rmtree(checkpoints[-1])
@@ -47,7 +47,7 @@ def goes_on():
     text = log_of(folder)
     check("Resumed at t = " in text, "the run does not go on")
     for name, value in whole.items():
-        check(name in ("wall_time_s",) or abs(end[name] - value) <= 1e-9 * max(1., abs(value)), f"{name}: {end[name]}, not {value}")
+        check(abs(end[name] - value) <= 1e-9 * max(1., abs(value)), f"{name}: {end[name]}, not {value}")
 
 
 def refusals():
@@ -57,7 +57,7 @@ def refusals():
                            ({"Stage Dig/Mesh/Cell size": 0.25}, "a stage cannot change that"), ({"Stage Dig/Remove": "y > 9"}, "no point is there"),
                            ({"Stage/Remove": "y > 9"}, "A stage has a name"), ({"Stage Dig/Remove": "y >"}, "Remove")):
         with open("case.prm", "w", encoding="utf-8") as file:
-            file.write(CASE + set_entries("", entries))
+            file.write(set_entries(CASE, entries))
         done = subprocess.run([SCREE, "case.prm"], capture_output=True, text=True, check=False)
         check(done.returncode == 1 and words in " ".join(done.stderr.split()), f"{entries}: {done.stderr}")
 
