@@ -2,7 +2,6 @@
 #include <scree/case/case_checks.h>
 #include <scree/case/parameters.h>
 #include <scree/io/progress.h>
-#include <scree/materials/laws/mohr_coulomb.h>
 
 #include <sstream>
 
@@ -213,9 +212,8 @@ namespace scree
         take_box_from_raster();
         take_unit_weights();
         check_stages();
-        for (const BodyParameters &body : bodies)
-          if (body.material.law == "Mohr-Coulomb")
-            body.material.of<MohrCoulombParameters>().choose_cut_off(body.material.path(body.name), has_water);
+        for (BodyParameters &body : bodies)
+          body.material.complete(body.name, has_water);
         check_case(*this);
         map_system = system_of_maps(*this);
         read_maps();

@@ -34,6 +34,7 @@ namespace scree
       parameters.add_parameters(prm);
       input.check(prm, "scree-element --help lists all of them.");
       prm.parse_input_from_string(input.statements_text());
+      parameters.material.complete("", /* in_water */ false);
       parameters.check();
 
       ElementDriver driver(parameters);

@@ -82,6 +82,12 @@ namespace scree
   }
 
 
+  void MaterialParameters::complete(const std::string &subsection, const bool in_water)
+  {
+    all.at(registered(law).name)->complete(path(subsection), in_water);
+  }
+
+
   bool MaterialParameters::divide_strength(const double factor)
   {
     return all.at(registered(law).name)->divide_strength(factor);

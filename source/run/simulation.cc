@@ -110,7 +110,7 @@ namespace scree
       begin_balances();
     if (!is_released)
       return;
-    results.begin_balances();
+    results.begin_balances(/* in_motion */ parameters.settling.maximum_time == 0.);
     scene.mark_start();
     scheme->read_points();
   }

@@ -27,6 +27,11 @@ namespace scree
     /// Declares the entries inside the subsection of the law.
     virtual void add_parameters(dealii::ParameterHandler &prm) = 0;
 
+    /// Finds the values of entries that are auto, before check(). Throws EntryError if an entry cannot be read.
+    virtual void complete(const std::string & /* subsection */, const bool /* in_water */)
+    {
+    }
+
     /// Throws EntryError if a combination is impossible; `subsection` is the path of the law's.
     virtual void check(const std::string &subsection) const = 0;
 

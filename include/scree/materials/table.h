@@ -36,6 +36,9 @@ namespace scree
     /// Declare entry and subsections inside whatever subsection `prm` has entered.
     void add_parameters(dealii::ParameterHandler &prm);
 
+    /// Completes the chosen law, see LawEntries; `subsection` is that of check().
+    void complete(const std::string &subsection, const bool in_water);
+
     /// Check the chosen law; `subsection` is the path of the enclosing subsection for messages, e.g. "Soil".
     void check(const std::string &subsection) const
     {

@@ -170,7 +170,8 @@ namespace scree
     }
 
     /// At the start of a stage: balances begin anew, and those of the stage before that did not hold stay.
-    void begin_balances()
+    /// @param in_motion whether it begins without settling
+    void begin_balances(const bool in_motion)
     {
       for (CheckResult &check : balances->results())
         if (check.is_exceeded)
@@ -179,7 +180,7 @@ namespace scree
             found.push_back(check);
           }
       balances.emplace(scene.grid, scene.forcing);
-      statistics.begin_balances();
+      statistics.begin_balances(in_motion);
     }
 
     /// Brings all rows to the disk, before a checkpoint counts on them.

@@ -183,7 +183,7 @@ namespace scree
   }
 
 
-  void MohrCoulombParameters::choose_cut_off(const std::string &subsection, const bool in_water)
+  void MohrCoulombParameters::complete(const std::string &subsection, const bool in_water)
   {
     const MohrCoulombParameters last = residual();
     if (cut_off == "auto")

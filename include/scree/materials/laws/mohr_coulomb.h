@@ -172,7 +172,7 @@ namespace scree
 
     /// Finds the tension cut-off from its entry; auto: the cohesion, as far as its strength, also the residual one,
     /// allows it, in water, else 0. Throws EntryError if the entry is neither auto nor a number from 0 on.
-    void choose_cut_off(const std::string &subsection, const bool in_water);
+    void complete(const std::string &subsection, const bool in_water) override;
 
     /// Divides tan(phi), c and the tension cut-off; psi stays, but is at most phi.
     bool divide_strength(const double factor) override;
