@@ -386,7 +386,7 @@ namespace scree
                                    { "Water/Pressure", "Relative tolerance", Change::noted },
                                    { "Water/Pressure", "Maximum iterations", Change::noted } };
 
-    /// What the first step of a stage reads anew; laws have subsections of their own in those of the bodies.
+    /// What the first step of a stage reads anew.
     const std::vector<Rule> rules_of_stages{ { "Stage", "", Change::free },
                                              { "Boundaries", "", Change::noted },
                                              { "Boundaries/Water", "", Change::noted },
@@ -394,16 +394,26 @@ namespace scree
                                              { "Settling", "", Change::free },
                                              { "Safety", "", Change::noted } };
 
+    /// Entries of laws that a stage may change: strengths, which the points do not have from the start on.
+    const std::set<std::string> strengths{ "Friction angle",
+                                           "Dilation angle",
+                                           "Cohesion",
+                                           "Tension cut-off",
+                                           "Softening strain",
+                                           "Residual friction angle",
+                                           "Residual dilation angle",
+                                           "Residual cohesion",
+                                           "Yield stress",
+                                           "Consistency",
+                                           "Flow index" };
+
     Change kind_of(const CaseEntry &entry, const CaseEntry *before, const CaseEntry *now, const bool begins_stage)
     {
-      const std::string name_of_law = entry.subsection.substr(entry.subsection.find('/') + 1);
-      const auto is_of_law          = [&](const RegisteredLaw &law) { return law.subsection == name_of_law; };
       if (begins_stage)
         for (const Rule &rule : rules_of_stages)
           if (rule.subsection == entry.subsection && (rule.name.empty() || rule.name == entry.name))
             return rule.change;
-      if (begins_stage && before && now && name_of_law != entry.subsection &&
-          std::any_of(registered_laws().begin(), registered_laws().end(), is_of_law))
+      if (begins_stage && before && now && strengths.count(entry.name) > 0)
         return Change::noted;
       for (const Rule &rule : rules)
         if (rule.subsection == entry.subsection && (rule.name.empty() || rule.name == entry.name))
@@ -471,13 +481,16 @@ namespace scree
     if (refused.size() > most_names)
       others += "; and " + std::to_string(refused.size() - most_names) + " more";
     const Refused &first = refused.front();
-    throw EntryError(first.name + first.now + ": the run that wrote " + checkpoint.folder + " had " + first.before +
-                     (begins_stage ? ", and a stage cannot change that. Write it as it was."
-                                   : ", and --resume cannot change that. Write it as it was, or run without --resume "
-                                     "in another \"Output directory\".") +
-                     (first.name == entry_name("Safety", "Strength factor")
-                          ? " A copy of the run folder with no checkpoint but step-0 goes on from the release."
-                          : "") +
-                     others + (others.empty() ? "" : "."));
+    throw EntryError(
+        first.name + first.now + ": " +
+        (begins_stage ? "before this stage the case has " : "the run that wrote " + checkpoint.folder + " had ") +
+        first.before +
+        (begins_stage ? ", and a stage cannot change that. Write it as it was."
+                      : ", and --resume cannot change that. Write it as it was, or run without --resume "
+                        "in another \"Output directory\".") +
+        (first.name == entry_name("Safety", "Strength factor")
+             ? " A copy of the run folder with no checkpoint but step-0 goes on from the release."
+             : "") +
+        others + (others.empty() ? "" : "."));
   }
 } // namespace scree

@@ -536,6 +536,8 @@ namespace scree
     bool is_later = last.empty();
     for (const std::string &subsection : stages)
       {
+        if (subsection.find('/') != std::string::npos)
+          throw EntryError("subsection " + subsection + ": a \"/\" divides names of subsections. Write another name.");
         for (const std::string &name : Utilities::split_string_list(file.value(subsection, "Add", "")))
           {
             const auto body =
@@ -581,9 +583,23 @@ namespace scree
                   { "Stage", "Add", boost::algorithm::join(stage.adds, ", ") },
                   "the fine cells of a box of more than 20 000 cells are around the points of the start. Write larger "
                   "cells or a smaller box.");
-    if (stage.name.empty()) // What is wrong in a stage is said before the case runs.
-      for (const std::string &subsection : stages)
-        Parameters(case_file, subsection);
+    if (!stage.name.empty())
+      return;
+    Checkpoint before; // What is wrong in a stage is said before the case runs.
+    before.entries = entries();
+    for (const std::string &subsection : stages)
+      {
+        const Parameters of_stage(case_file, subsection);
+        try
+          {
+            notes_on_changes(before, of_stage.entries(), /* begins_stage */ true);
+          }
+        catch (const EntryError &error)
+          {
+            throw of_stage.error(error);
+          }
+        before.entries = of_stage.entries();
+      }
   }
 
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 
 namespace scree
@@ -393,7 +394,7 @@ namespace scree
   }
 
 
-  std::string InputFile::statements_text() const
+  std::string InputFile::text_of(const std::vector<Statement> &statements)
   {
     std::string result;
     for (const Statement &statement : statements)
@@ -448,9 +449,18 @@ namespace scree
           statement.kind == Kind::subsection ? subsection_path(statement.path, statement.name) : statement.path;
       return path.substr(0, path.find('/'));
     };
+    std::set<std::pair<std::string, std::string>> seen; // names and the files in which they stand
     for (const Statement &statement : statements)
       if (name_at_top(statement).rfind(prefix, 0) != 0)
         result.push_back(statement);
+      else
+        {
+          left_out.push_back(statement);
+          if (statement.kind == Kind::subsection && statement.path.empty() &&
+              !seen.insert({ statement.name, statement.file }).second)
+            throw statement.error("subsection " + statement.name +
+                                  " stands in this file before. Write another name, or one subsection.");
+        }
     bool counts = !last.empty();
     for (const std::string &name : subsections(prefix))
       {

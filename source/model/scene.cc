@@ -848,8 +848,24 @@ namespace scree
         SoilBody<dim> &body =
             *std::find_if(bodies.begin(), bodies.end(), [&](const SoilBody<dim> &one) { return one.name == name; });
         const BodyParameters &entries = *parameters.find_body(name);
+        const SoilRegion region{ name, entries.seeding.expression(), 0., 0., entries.seeding.map };
+        const Region<dim> places = region.template places<dim>();
+        double taken             = 0.; // by other soil, m^3
+        on_all_ranks(communicator, [&] {
+          for (const SoilBody<dim> &other : bodies)
+            for_each_point(other.points, [&](const auto &point) {
+              taken += places.contains(point.location) ? point.properties[other.layout.volume] : 0.;
+            });
+        });
         seed(body, entries.seeding, lattice_of_soil());
-        SoilRegion region{ name, entries.seeding.expression(), 0., 0., entries.seeding.map };
+        double volume = 0.;
+        for_each_point(body.points, [&](const auto &point) { volume += point.properties[body.layout.volume]; });
+        constexpr double by_settling = 0.1; // part that ground which has moved may take
+        require_entry(Utilities::MPI::sum(taken, communicator) <=
+                          by_settling * Utilities::MPI::sum(volume, communicator),
+                      { name, entries.seeding.place().first, entries.seeding.place().second },
+                      "more than a tenth of it is full of other soil when \"" + entries.added_by +
+                          "\" begins. Let it begin at the ground.");
         set_place_values(body, entries.material.path(name), { region }, grid);
         set_isotropic_stress(body, 0., entries.material.modulus_text(name), communicator);
         for_each_point(body.points,

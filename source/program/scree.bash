@@ -49,6 +49,7 @@ _scree()
   done
   if [[ $word == -* ]]; then
     case $task in
+      --safety) _scree_reply <<<'--stage' ;;
       --advise) _scree_reply <<<$'--accuracy\n--ranks' ;;
       --new) _scree_reply <<<'--overwrite' ;;
       --print-parameters) _scree_reply <<<$'--json\n--sections' ;;
@@ -58,6 +59,10 @@ _scree()
   fi
   case $before in
     --accuracy | --ranks) return ;;
+    --stage)
+      [ -z "$case_file" ] || _scree_reply < <(sed -n 's/^ *subsection  *Stage  *//p' "$case_file" 2>/dev/null)
+      return
+      ;;
     --new) _scree_reply < <("$program" --new 2>/dev/null | sed -n 's/^  \([a-z_]*\) .*/\1/p') ;;
     --print-parameters) _scree_reply < <("$program" --print-parameters --sections ${case_file:+"$case_file"} 2>/dev/null) ;;
   esac

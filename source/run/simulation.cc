@@ -99,6 +99,12 @@ namespace scree
     require_entry(parameters.stage.removed.empty() || masses.removed_soil + masses.removed_water > 0.,
                   { "Stage", "Remove", parameters.stage.removed },
                   "no point is there. Look at the expression.");
+    require_entry(std::any_of(scene.bodies.begin(),
+                              scene.bodies.end(),
+                              [](const auto &body) { return body.points.handler().n_global_particles() > 0; }) ||
+                      parameters.bodies.empty(),
+                  { "Stage", "Remove", parameters.stage.removed },
+                  "no soil is left. Look at the expression.");
     reinit();
     measure_speeds();
     clock.set(clock.time(), clock.step() + 1); // The end of the stage before keeps its checkpoint.
@@ -138,7 +144,7 @@ namespace scree
     stop.listen();
     progress = std::make_unique<Progress>(folder, clock.time(), parameters.end_time, shown_motion(scene).first);
     if (start != Start::resume && is_released) // A resumed run has reported its first state, also that at t = 0.
-      report();
+      report(/* at_start */ true);
     const double updates_before = point_updates;
     const double first_step     = stable_step();
     try

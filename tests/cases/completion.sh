@@ -32,6 +32,9 @@ expect '--resume' --re
 expect '--new' my.prm --n
 expect '--accuracy --ranks' my.prm --advise --
 expect '--json --sections' --print-parameters --
+printf 'subsection Stage Lift 1\nend\n' > staged.prm
+expect 'Lift\ 1' staged.prm --safety --stage ''
+rm staged.prm
 expect 'slope' --new sl
 expect '' --accuracy ''
 expect 'Time\ step' --print-parameters Ti
@@ -41,7 +44,7 @@ expect 'Soil/Initial\ state' --print-parameters Soil/I
 expect 'sub.d' sub
 
 options=$("$scree" --help | grep -o -e '--[a-z-]*' | sort -u)
-offered=$({ completed --; completed --advise --; completed --new --; completed --print-parameters --; } | sort -u)
+offered=$({ completed --; completed --advise --; completed --safety --; completed --new --; completed --print-parameters --; } | sort -u)
 [ "$options" = "$offered" ] || { echo "--help: $options"; echo "completion: $offered"; exit 1; }
 
 # shellcheck disable=SC2016 # of the inner shell

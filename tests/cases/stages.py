@@ -34,6 +34,13 @@ def books():
     check(abs(end["Time (s)"] - 0.3) < 1e-12 and text.count("Settled for") == 3, "times of the stages")
     check("Stage Dig, from t = 0.1 to 0.1 s Removed soil 3200 kg/m" in text and "Stage Lay, from t = 0.1 to 0.3 s Added soil 4800 kg/m" in text, text[-3000:])
     check("fault:" not in text, "a check fails")
+    again = last(run("again", (folder / "parameters.prm").read_text(encoding="utf-8")))
+    check(abs(again["Mass (kg)"] - end["Mass (kg)"]) < 1e-9 * end["Mass (kg)"], "parameters.prm is another case")
+    moving = rows_of(run("moving", set_entries(CASE, {"Stage Dig/Settling/Maximum time": 0, "Stage Dig/Duration": 0.2, "Stage Dig/Remove": "x < 2 && y > 2"})) / "statistics.csv")
+    begun = [row for row in moving if abs(float(row["Time (s)"]) - 0.1) < 1e-12]
+    check(len(begun) == 2 and float(begun[1]["Mass removed (kg)"]) > 0, "a stage has no row of its start")
+    energy = [float(row["Numerical dissipation (J)"]) for row in moving if 0.1 < float(row["Time (s)"]) < 0.3]
+    check(min(energy) > -1e-3 * max(float(row["Kinetic energy (J)"]) for row in moving), f"a stage that begins without settling gains energy: {energy} J")
 
 
 def goes_on():
@@ -52,12 +59,21 @@ def goes_on():
 
 def refusals():
     """Names entry, value and remedy before anything runs."""
-    for entries, words in (({"Stage Lay/Add": "Fil"}, 'entry "Bodies" lists Soil, Fill'), ({"Stage Lay/Fill": "y"}, "there is no such entry"),
-                           ({"Stage Dig/Add": "Fill"}, "adds this body already"), ({"Fill/Initial state/Type": "K0"}, "adds this body"),
-                           ({"Stage Dig/Mesh/Cell size": 0.25}, "a stage cannot change that"), ({"Stage Dig/Remove": "y > 9"}, "no point is there"),
-                           ({"Stage/Remove": "y > 9"}, "A stage has a name"), ({"Stage Dig/Remove": "y >"}, "Remove")):
+    for entries, words in (({"Stage Lay/Add": "Fil"}, 'entry "Bodies" lists Soil, Fill'),
+                           ({"Stage Lay/Fill": "y"}, "there is no such entry"),
+                           ({"Stage Dig/Add": "Fill"}, "adds this body already"),
+                           ({"Fill/Initial state/Type": "K0"}, "adds this body"),
+                           ({"Stage Dig/Mesh/Cell size": 0.25}, "a stage cannot change that"),
+                           ({"Stage Dig/Soil/Mohr-Coulomb/Young's modulus": 1e6}, "a stage cannot change that"),
+                           ({"Fill/Region": "y > 2 && y < 5"}, "is full of other soil"),
+                           ({"Stage Dig/Remove": "y > 0"}, "no soil is left"),
+                           ({"Stage Dig/Remove": "y > 9"}, "no point is there"),
+                           ({"Stage Dig/Remove": "y >"}, "Remove"),
+                           ({"Stage/Remove": "y > 9"}, "A stage has a name"),
+                           ("subsection Stage A/B\nend\n", "divides names"),
+                           ("subsection Stage Dig\nend\n", "stands in this file before")):
         with open("case.prm", "w", encoding="utf-8") as file:
-            file.write(set_entries(CASE, entries))
+            file.write(f"{CASE}\n{entries}" if isinstance(entries, str) else set_entries(CASE, entries))
         done = subprocess.run([SCREE, "case.prm"], capture_output=True, text=True, check=False)
         check(done.returncode == 1 and words in " ".join(done.stderr.split()), f"{entries}: {done.stderr}")
 

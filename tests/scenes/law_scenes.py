@@ -108,10 +108,10 @@ def submerged_columns(scree):
     for kind, time, least, most in (("loose", 0.64, 100, 250), ("dense", 0.4, -140, -50)):
         name = "submerged_" + kind
         run(scree, "columns/" + name, name, {"End time": time})
-        base = read_table(name + "/probe_base")
+        base = read_table(name + "/probe_base.csv")
         late = base["Time (s)"] > 0.8 * time
         check("%s column: excess pressure at the base, Pa" % kind, np.mean(base["Pore pressure (Pa)"][late]) - hydrostatic, least, most)
-        front = read_table(name + "/probe_front")["Front (m)"][-1]
+        front = read_table(name + "/probe_front.csv")["Front (m)"][-1]
         check("%s column: front (ours), m" % kind, front, *((0.141, 0.151) if kind == "loose" else (0.059, 0.066)))
 
 

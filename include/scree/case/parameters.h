@@ -119,7 +119,7 @@ namespace scree
   /// Subsections Stage NAME: what changes when a run goes on from the end of the case, or of the stage before.
   struct StageParameters
   {
-    static constexpr const char *prefix = "Stage ";
+    static constexpr const char *prefix = "Stage "; ///< of the names of subsections
 
     std::string name;              ///< of its subsection, without the prefix; empty: the case itself
     double duration = 0;           ///< s, after its settling
@@ -266,6 +266,8 @@ namespace scree
                const dealii::ParameterHandler::OutputStyle style = dealii::ParameterHandler::PRM) const
     {
       handler.print_parameters(out, style);
+      if (style == dealii::ParameterHandler::PRM && stage.name.empty())
+        out << file.left_out_text();
     }
 
     /// Writes the paths of the subsections, one per line: all of them, or those of and below one.

@@ -37,7 +37,16 @@ namespace scree
     std::vector<NamedFile> named_files(const dealii::ParameterHandler &prm);
 
     /// The statements of the file and those it includes, for ParameterHandler::parse_input().
-    std::string statements_text() const;
+    std::string statements_text() const
+    {
+      return text_of(statements);
+    }
+
+    /// Those that take_up_to() has taken from their places.
+    std::string left_out_text() const
+    {
+      return text_of(left_out);
+    }
 
     /// The value of an entry of the subsection, or `otherwise` if the file does not set it.
     std::string value(const std::string &subsection, const std::string &entry, const std::string &otherwise) const
@@ -113,6 +122,7 @@ namespace scree
       std::vector<std::string> files; ///< each included by the one before
     };
 
+    static std::string text_of(const std::vector<Statement> &statements);
     void read(const std::string &text, const std::string &file, Open &open);
     void read_line(const std::string &line, const Statement &place, Open &open);
     void include(const std::string &name, const Statement &place, Open &open);
@@ -121,7 +131,7 @@ namespace scree
     const Statement *find(const std::string &subsection, const std::string &entry) const;
 
     std::string file_name, whole_text;
-    std::vector<Statement> statements;
+    std::vector<Statement> statements, left_out;
   };
 } // namespace scree
 

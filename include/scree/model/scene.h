@@ -12,7 +12,9 @@ namespace scree
   /// What a stage removes and adds, kg (2D: per m).
   struct StageMasses
   {
-    double removed_soil = 0, removed_water = 0, added_soil = 0;
+    double removed_soil  = 0; ///< of all bodies
+    double removed_water = 0; ///< also of that in their pores
+    double added_soil    = 0; ///< of the bodies that appear
   };
 
   /// What a case describes: the mesh, its walls, bodies of soil, water and loads.

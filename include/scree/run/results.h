@@ -84,11 +84,12 @@ namespace scree
     }
 
     /// Writes what is due. Collective.
-    void report(const RunState<dim> &state, const OutputTimes &output_times)
+    /// @param at_start whether a run or a stage begins
+    void report(const RunState<dim> &state, const OutputTimes &output_times, const bool at_start)
     {
       files.look();
       const double time          = state.time;
-      const bool at_start_or_end = state.step == 0 || output_times.is_end(time);
+      const bool at_start_or_end = at_start || output_times.is_end(time);
       const bool row_is_due      = at_start_or_end || output_times.row_is_due(time);
       const bool picture_is_due  = at_start_or_end || output_times.picture_is_due(time);
 

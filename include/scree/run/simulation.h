@@ -145,10 +145,10 @@ namespace scree
     }
 
     /// Writes what is due of the state as it is. Collective.
-    void report()
+    void report(const bool at_start = false)
     {
       const TimedPart part(timer, TimerSection::output);
-      results.report(state(), output_times);
+      results.report(state(), output_times, at_start || clock.step() == 0);
       if (output_times.checkpoint_is_due(clock.time()))
         begin_checkpoint();
       output_times.begin(clock.time());
