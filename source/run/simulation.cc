@@ -116,7 +116,8 @@ namespace scree
       begin_balances();
     if (!is_released)
       return;
-    results.begin_balances(/* in_motion */ parameters.settling.maximum_time == 0.);
+    results.begin_balances();
+    last_time_step = 0.; // The energy is that of the points as they are.
     scene.mark_start();
     scheme->read_points();
   }

@@ -64,7 +64,7 @@ def refusals():
                            ({"Stage Dig/Add": "Fill"}, "adds this body already"),
                            ({"Fill/Initial state/Type": "K0"}, "adds this body"),
                            ({"Stage Dig/Mesh/Cell size": 0.25}, "a stage cannot change that"),
-                           ({"Stage Dig/Soil/Mohr-Coulomb/Young's modulus": 1e6}, "a stage cannot change that"),
+                           ({"Stage Dig/Soil/Mohr-Coulomb/Young's modulus": 3e6}, "a stage cannot change that"),
                            ({"Fill/Region": "y > 2 && y < 5"}, "is full of other soil"),
                            ({"Stage Dig/Remove": "y > 0"}, "no soil is left"),
                            ({"Stage Dig/Remove": "y > 9"}, "no point is there"),

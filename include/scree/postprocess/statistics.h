@@ -292,12 +292,10 @@ namespace scree
                           const WaterView<dim> *view = nullptr);
 
     /// Balances and sums begin anew at the next row.
-    /// @param in_motion whether velocities are those of half a step before the places, as after any step
-    void begin_balances(const bool in_motion)
+    void begin_balances()
     {
-      history.start          = {};
-      history.start.has_step = in_motion;
-      history.balance        = {};
+      history.start   = {};
+      history.balance = {};
     }
 
     /// The start of the run, once its first row has been made.

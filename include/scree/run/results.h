@@ -171,8 +171,7 @@ namespace scree
     }
 
     /// At the start of a stage: balances begin anew, and those of the stage before that did not hold stay.
-    /// @param in_motion whether it begins without settling
-    void begin_balances(const bool in_motion)
+    void begin_balances()
     {
       for (CheckResult &check : balances->results())
         if (check.is_exceeded)
@@ -181,7 +180,7 @@ namespace scree
             found.push_back(check);
           }
       balances.emplace(scene.grid, scene.forcing);
-      statistics.begin_balances(in_motion);
+      statistics.begin_balances();
     }
 
     /// Brings all rows to the disk, before a checkpoint counts on them.
