@@ -85,7 +85,7 @@ def screen():
                 r"Finished    wall time [0-9.]+ s, [1-9]\d* steps, \d+ ns per point and step and core", r"Limits      time step limited by wave speed \(100 % of steps\)",
                 r"Checks      resolution: Stress oscillation \d\.\d+ \(bound 0\.2\); what to do: .*",
                 r" +within bounds: mass balance [0-9.e-]+; momentum balance [0-9.e-]+;.*",
-                r"Results     results/solution/points\.pvd \(ParaView\), statistics, log\.txt")
+                r"Results     results/solution/points\.pvd \(ParaView\), statistics\.csv, log\.txt")
         check("points of soil lost 0" in " ".join(text.split()) and not re.search(r"deal\.II|points to grid|Soil at", text), text)
         # Numbers end below the ends of their headings.
         check(len({len(line) for line in text.splitlines() if " time (s) " in line or re.fullmatch(row, line)}) == 1, text)
