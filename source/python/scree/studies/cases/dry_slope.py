@@ -64,7 +64,7 @@ def verdict(rows, claim):
         claim("dissipation", oscillation["PIC rate 5"] > 0.85, quick=False, dissipation=Lookup(dissipation),
               factor=1 / oscillation["PIC rate 5"]),
         claim("3 points", error["3 x 3 points"] < 1.1),
-        claim("2 points", error["2 x 2 points"] < 1.2 and oscillation["2 x 2 points"] > 1.2, quick=False),
+        claim("2 points", error["2 x 2 points"] < 1.2 and oscillation["2 x 2 points"] < 1.2, quick=False),
         claim("F-bar", oscillation["no F-bar"] > 2 and oscillation["standard F-bar"] > 2 and found["no F-bar"] > 1,
               quick=False),
         claim("step", abs(error["Courant number 0.9"] - 1) < 0.05 and abs(error["Courant number 0.3"] - 1) < 0.05,
