@@ -399,6 +399,17 @@ namespace scree
 
   // What enters a scene.
 
+  namespace
+  {
+    /// The body of this name, which is there.
+    template <int dim>
+    SoilBody<dim> &body_named(const std::string &name, std::list<SoilBody<dim>> &bodies)
+    {
+      return *std::find_if(bodies.begin(), bodies.end(), [&](const SoilBody<dim> &one) { return one.name == name; });
+    }
+  } // namespace
+
+
   template <int dim>
   void Scene<dim>::let_in(const double time,
                           const double time_step,
@@ -531,8 +542,7 @@ namespace scree
   std::vector<int>
   Scene<dim>::add_soil(const Inflow<dim> &inflow, const std::vector<Point<dim>> &locations, RunBalance<dim> &totals)
   {
-    SoilBody<dim> &body =
-        *std::find_if(bodies.begin(), bodies.end(), [&](const SoilBody<dim> &one) { return one.name == inflow.body; });
+    SoilBody<dim> &body           = body_named(inflow.body, bodies);
     const auto &layout            = body.layout;
     const BodyParameters &entries = *parameters.find_body(body.name);
     std::unique_ptr<PlaceVariableValues<dim>> of_place; // what the law has from the place; null: nothing
@@ -845,8 +855,7 @@ namespace scree
       }
     for (const std::string &name : stage.adds)
       {
-        SoilBody<dim> &body =
-            *std::find_if(bodies.begin(), bodies.end(), [&](const SoilBody<dim> &one) { return one.name == name; });
+        SoilBody<dim> &body           = body_named(name, bodies);
         const BodyParameters &entries = *parameters.find_body(name);
         const SoilRegion region{ name, entries.seeding.expression(), 0., 0., entries.seeding.map };
         const Region<dim> places = region.template places<dim>();
@@ -868,8 +877,7 @@ namespace scree
                           "\" begins. Let it begin at the ground.");
         set_place_values(body, entries.material.path(name), { region }, grid);
         set_isotropic_stress(body, 0., entries.material.modulus_text(name), communicator);
-        for_each_point(body.points,
-                       [&](const auto &point) { masses.added_soil += point.properties[body.layout.mass]; });
+        masses.added_soil += body.density * volume;
       }
     require_points_outside_obstacles();
     mark_start();

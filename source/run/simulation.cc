@@ -108,8 +108,11 @@ namespace scree
     reinit();
     measure_speeds();
     clock.set(clock.time(), clock.step() + 1); // The end of the stage before keeps its checkpoint.
-    totals.removed_mass += Utilities::MPI::this_mpi_process(communicator) == 0 ? masses.removed_soil : 0.;
-    totals.added_mass += Utilities::MPI::this_mpi_process(communicator) == 0 ? masses.added_soil : 0.;
+    if (folder.is_writer())
+      {
+        totals.removed_mass += masses.removed_soil;
+        totals.added_mass += masses.added_soil;
+      }
     if (parameters.settling.maximum_time > 0.)
       settle();
     else

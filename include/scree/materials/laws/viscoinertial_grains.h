@@ -7,7 +7,7 @@
 
 namespace scree
 {
-  /// Entries of subsection "Viscoinertial grains". Defaults: glass beads of @source{baumgarten2019}.
+  /// Entries of subsection "Viscoinertial grains". Defaults: for glass beads, after @source{baumgarten2019}.
   struct ViscoinertialGrainsParameters : LinearElasticParameters
   {
     double grain_diameter    = 1e-3;   ///< d, m
