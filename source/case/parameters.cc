@@ -101,8 +101,11 @@ namespace scree
   void BodyParameters::check(const std::vector<double> &gravity, const WaterParameters *water) const
   {
     seeding.check(name, gravity.size());
+    require_entry(conductivity_text == "auto" || (conductivity >= 1e-20 && std::isfinite(conductivity)),
+                  { name, "Hydraulic conductivity", conductivity_text },
+                  "write auto, or a number from 1e-20 on, in m/s; 1e-12 is as good as impermeable.");
     require_entry(water != nullptr || conductivity == 0,
-                  { name, "Hydraulic conductivity", conductivity },
+                  { name, "Hydraulic conductivity", conductivity_text },
                   "this entry has no effect, as the file has no subsection Water. Add one, or remove the entry.");
     material.check(name);
     initial_state.check(name, gravity);
@@ -130,6 +133,11 @@ namespace scree
                       "the slope. Write more for soil so soft that it deforms as much without failure. It also bounds "
                       "the displacement while the soil settles.",
                       Patterns::Double(1e-6, 10));
+    prm.add_parameter("Bodies not reduced",
+                      unreduced,
+                      "Bodies that keep their strength, for instance a foundation or a wall whose failure is not asked "
+                      "for. The friction of bed, walls, obstacles and contacts is divided all the same.",
+                      Patterns::List(Patterns::Anything()));
     prm.leave_subsection();
   }
 
@@ -632,8 +640,15 @@ namespace scree
   {
     set("Safety", "Strength factor", exact_text({ factor })); // for the record, and for the bed's raster of angles
     bool has_strength = false;
+    for (const std::string &name : safety.unreduced)
+      if (const auto names = names_of(bodies); std::find(names.begin(), names.end(), name) == names.end())
+        require_entry(false,
+                      { "Safety", "Bodies not reduced", name },
+                      "there is no such body. Write some of: " + boost::algorithm::join(names, ", ") + '.');
     for (BodyParameters &body : bodies)
       {
+        if (safety.keeps(body.name))
+          continue;
         if (body.initial_state.is_k0())
           body.initial_state.k0 = exact_text({ body.k0() }); // of the soil as it is
         has_strength = body.material.divide_strength(factor) || has_strength;
@@ -641,7 +656,8 @@ namespace scree
       }
     require_entry(has_strength,
                   { "Safety", "Strength factor", factor },
-                  "no body has a law with strength that could be reduced. Write another \"Material\".");
+                  "no body has a law with strength that could be reduced. Write another \"Material\", or fewer "
+                  "\"Bodies not reduced\".");
 
     const auto reduce = [factor](double &angle) { angle = divided_angle(angle, factor); };
     reduce(bed.friction_angle);

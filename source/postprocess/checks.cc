@@ -28,7 +28,7 @@ namespace scree
     constexpr Words words[] = { // by Check
       { 1.5,
         "fastest point",
-        "VALUE times the largest 99.9 % quantile of the speeds",
+        "VALUE times the speed that 0.1 % of the points, ten at most, exceed",
         "it moves at FOUND m/s",
         "look at this place in the pictures; halve \"Courant number\"" },
       { 0.1,
@@ -56,7 +56,8 @@ namespace scree
         "soil that has come to a wall of the box",
         "FOUND m",
         "it has come to this wall or up it, which cuts off the run-out",
-        move_corner },
+        move_corner,
+        Finding::resolution },
       { 0.,
         "soil that has moved along a wall of the box",
         "FOUND m",
@@ -67,7 +68,15 @@ namespace scree
         "points of soil lost",
         "FOUND",
         "they left the box",
-        "the run-out is a lower bound: move the corner of the box that the soil has left through" }
+        "the run-out is a lower bound: move the corner of the box that the soil has left through",
+        Finding::resolution },
+      { 0.01,
+        "water with suction that has lost half of it at once",
+        "VALUE of its volume",
+        "it has lost FOUND Pa of its suction",
+        "count on less strength there: suction holds only where dry soil lies behind the water; write a lower "
+        "\"Phreatic surface\" or \"Air entry pressure\", or ground that ends between faces of the cells",
+        Finding::resolution }
     };
 
     /// Normal stress, Pa, tension positive, on planes with the unit normal `axis`.
@@ -102,6 +111,18 @@ namespace scree
         }
     }
 
+    /// Calls `look(point, id)` with the points of a set.
+    template <int dim, typename Look>
+    void for_each_with_id(const PointSet<dim> &points, const Look &look)
+    {
+      for (unsigned int c = 0; c < points.cells().size(); ++c)
+        {
+          const auto ids = points.ids(c);
+          auto id        = ids.begin();
+          for_each_point(points.cells()[c], [&](const auto &point) { look(point, *id++); });
+        }
+    }
+
     /// The same with the bodies that can move.
     template <int dim, typename Look>
     void for_each_named(const std::list<SoilBody<dim>> &bodies, const Look &look)
@@ -123,7 +144,7 @@ namespace scree
 
 
   template <int dim>
-  bool RunChecks<dim>::look(const std::list<SoilBody<dim>> &bodies,
+  void RunChecks<dim>::look(const std::list<SoilBody<dim>> &bodies,
                             const std::list<WaterPhase<dim>> &water,
                             const double n_lost,
                             const double time,
@@ -131,13 +152,17 @@ namespace scree
                             const bool is_end)
   {
     if (has_looked && !is_end && step < last_step + steps_between)
-      return false;
+      return;
     last_step = step;
     now       = Suspects();
     has_soil  = std::any_of(bodies.begin(), bodies.end(), [](const auto &body) { return !body.is_rigid; });
     look_at_speeds(bodies, usual_speed_of_soil);
     look_at_speeds(water, usual_speed_of_water);
     look_at_places(bodies, water);
+    if (has_looked)
+      look_at_suction(water);
+    else
+      keep_suction(water);
     const double n_all = Utilities::MPI::sum(n_lost, grid.communicator());
     suspect(lost, n_all, n_all, [] { return std::string(); });
     for (Suspect &suspect : now)
@@ -155,7 +180,6 @@ namespace scree
           folder.log("Check: " + found.name + ' ' + found.value + "; " + found.where + ".");
         }
     has_looked = true;
-    return true;
   }
 
 
@@ -184,7 +208,11 @@ namespace scree
     if (!(largest > fall))
       return;
     if (!std::isinf(largest))
-      usual = std::max(usual, percentile(speeds, 0.999, grid.communicator()));
+      usual = std::max(
+          usual,
+          percentile(speeds,
+                     std::max(0.999, 1. - 10. / Utilities::MPI::sum(double(speeds.size()), grid.communicator())),
+                     grid.communicator()));
     auto found = speeds.begin();
     for_each_named(phases, [&](const auto &, const auto &, const auto &name) {
       if (found->place > std::max(usual, fall))
@@ -293,6 +321,63 @@ namespace scree
 
 
   template <int dim>
+  void RunChecks<dim>::keep_suction(const std::list<WaterPhase<dim>> &water)
+  {
+    double largest = 0., of_a_cell = 0.; // Pa
+    for (const WaterPhase<dim> &part : water)
+      {
+        of_a_cell = std::max(of_a_cell, part.density * gravity.norm() * grid.cell_size());
+        for_each_point(part.points(), [&](const auto &point) {
+          largest = std::max(largest, -point.properties[part.layout.pressure]);
+        });
+      }
+    largest = Utilities::MPI::max(largest, grid.communicator());
+    if (largest > of_a_cell)
+      for (const WaterPhase<dim> &part : water)
+        {
+          auto &pressures = pressures_at_start.emplace_back();
+          for_each_with_id(part.points(), [&](const auto &point, const auto id) {
+            if (const double p = point.properties[part.layout.pressure]; p < -0.25 * largest)
+              pressures[id] = p;
+          });
+        }
+  }
+
+
+  template <int dim>
+  void RunChecks<dim>::look_at_suction(const std::list<WaterPhase<dim>> &water)
+  {
+    if (pressures_at_start.empty())
+      return;
+    double all = 0., without = 0., largest = 0.; // volumes; loss, Pa
+    Point<dim> place;
+    auto pressures = pressures_at_start.begin();
+    for (const WaterPhase<dim> &part : water)
+      {
+        for_each_with_id(part.points(), [&](const auto &point, const auto id) {
+          const auto start = pressures->find(id);
+          if (start == pressures->end())
+            return;
+          const double volume = point.properties[part.layout.volume];
+          const double loss   = point.properties[part.layout.pressure] - start->second;
+          all += volume;
+          without += loss > -0.5 * start->second ? volume : 0.;
+          if (loss > largest)
+            {
+              largest = loss;
+              place   = point.location;
+            }
+        });
+        ++pressures;
+      }
+    pressures_at_start.clear();
+    NumbersOf{ &all, &without }.sum_over_ranks(grid.communicator());
+    if (largest > 0. && largest == Utilities::MPI::max(largest, grid.communicator()))
+      suspect(suction, without / all, largest, [&] { return "Water at (" + number_text(place) + ") m"; });
+  }
+
+
+  template <int dim>
   CheckResult RunChecks<dim>::result(const unsigned int check) const
   {
     const Suspect &at     = worst[check];
@@ -300,7 +385,7 @@ namespace scree
     const bool has_weight = has_soil && gravity.norm() > 0.;
     const bool has_walls  = has_weight && walls;
     const bool applies[]  = { true,       bed != nullptr, has_soil,  at.value > 1., has_weight,
-                              has_weight, has_walls,      has_walls, has_soil };
+                              has_weight, has_walls,      has_walls, has_soil,      at.value > 0. };
     if (!applies[check])
       return {};
     const std::string found = short_text(check == shrinkage && at.value <= 0. ? 1. : at.found),
@@ -327,7 +412,7 @@ namespace scree
   std::vector<CheckResult> RunChecks<dim>::results() const
   {
     std::vector<CheckResult> list;
-    for (const Check check : { depth, lost, wall, slide, speed, shrinkage, dilation, stress, peak })
+    for (const Check check : { depth, lost, wall, slide, speed, shrinkage, dilation, stress, peak, suction })
       if (const CheckResult found = result(check); has_looked && !found.name.empty())
         list.push_back(found);
     return list;

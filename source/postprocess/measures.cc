@@ -327,6 +327,58 @@ namespace scree
   }
 
 
+  namespace
+  {
+    /// Gives ghost cells the values of their owners, by active cells. Collective.
+    template <int dim, typename T>
+    void update_ghosts(const BackgroundGrid<dim> &grid, std::vector<T> &values)
+    {
+      if (Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
+        GridTools::exchange_cell_data_to_ghosts<T, parallel::distributed::Triangulation<dim>>(
+            grid.triangulation(),
+            [&](const auto &cell) { return std::make_optional(values[cell->active_cell_index()]); },
+            [&](const auto &cell, const T &value) { values[cell->active_cell_index()] = value; });
+    }
+
+
+    /// Calls `act(index)` with the active cells of the 3^dim around one, and with FineCells::none for those of the box
+    /// that are not fine.
+    template <int dim, typename Act>
+    void for_each_near(const FineCells<dim> &fine, const unsigned int cell, const Act &act)
+    {
+      for (unsigned int i = 0; i < Utilities::pow(3u, dim); ++i)
+        {
+          CellPlace<dim> place = fine.cells()[fine.of_index(cell)].place;
+          for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= 3)
+            place[a] += static_cast<int>(rest % 3) - 1;
+          if (const unsigned int near = fine.find(place); near != FineCells<dim>::none)
+            act(fine.cells()[near].index);
+          else if (fine.box().contains(place))
+            act(FineCells<dim>::none);
+        }
+    }
+
+
+    /// Calls `act(fill)` with the owned cells of free water that are at least half full, as all cells around them are.
+    /// @param fills volume of grains and water over that of the active cell, negative with soil points. Collective.
+    template <int dim, typename Act>
+    void for_each_full_cell(std::vector<double> &fills, const BackgroundGrid<dim> &grid, const Act &act)
+    {
+      update_ghosts(grid, fills);
+      for (const auto &cell : grid.triangulation().active_cell_iterators())
+        if (const double fill = fills[cell->active_cell_index()]; cell->is_locally_owned() && fill >= 0.5)
+          {
+            bool is_full = true;
+            for_each_near(grid.fine_cells(), cell->active_cell_index(), [&](const unsigned int near) {
+              is_full = is_full && near != FineCells<dim>::none && std::abs(fills[near]) >= 0.5;
+            });
+            if (is_full)
+              act(fill);
+          }
+    }
+  } // namespace
+
+
   template <int dim>
   WaterMeasures measure_water(const std::list<SoilBody<dim>> &bodies,
                               const std::list<WaterPhase<dim>> &water,
@@ -335,17 +387,26 @@ namespace scree
     const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
     WaterMeasures measures;
     double volume = 0., overfull = 0.; // of grains and water
-    for (const CellContents &cell : contents_of_cells(bodies, water, grid))
+    const std::vector<CellContents> contents = contents_of_cells(bodies, water, grid);
+    std::vector<double> fills; // of active cells; negative with soil points
+    for (const CellContents &cell : contents)
       {
         const double filled = cell.grain_volume + cell.water_volume;
+        fills.push_back((cell.n_soil_points > 0 ? -1. : 1.) * filled / cell_volume);
         measures.n_points += cell.n_water_points;
         measures.mass += cell.water_mass;
         measures.mass_outside_soil += cell.n_soil_points == 0 ? cell.water_mass : 0.;
         overfull += std::max(0., filled - cell_volume);
         volume += filled;
       }
-    NumbersOf{ &measures.n_points, &measures.mass, &measures.mass_outside_soil, &overfull, &volume }.sum_over_ranks(
-        grid.communicator());
+    double free_cells = 0., free_water = 0.; // over that of a cell
+    for_each_full_cell(fills, grid, [&](const double fill) {
+      ++free_cells;
+      free_water += fill;
+    });
+    NumbersOf{ &measures.n_points, &measures.mass, &measures.mass_outside_soil, &overfull, &volume,
+               &free_cells,        &free_water }
+        .sum_over_ranks(grid.communicator());
 
     std::vector<double> largest(3, -std::numeric_limits<double>::infinity()); // -p, p, x
     for (const auto &one : water)
@@ -362,6 +423,7 @@ namespace scree
     measures.largest_pressure  = is_there ? largest[1] : 0.;
     measures.tip               = is_there ? largest[2] : grid.lower_corner()[0];
     measures.volume_error      = volume > 0 ? overfull / volume : 0.;
+    measures.void_share        = free_cells > 0 ? std::max(0., 1. - free_water / free_cells) : 0.;
     return measures;
   }
 
@@ -430,8 +492,8 @@ namespace scree
     }
 
 
-    /// Root mean square of what is left of the pressure after the linear fits around the points' cells, over its mean.
-    /// Collective.
+    /// Root mean square of what is left of the pressure after the linear fits around the points' cells, over the mean
+    /// of its magnitude. Collective.
     /// @param for_each_set calls its argument with each set of points and a function of properties that is P or p, Pa
     template <int dim, typename ForEachSet>
     double oscillation(const BackgroundGrid<dim> &grid, const ForEachSet &for_each_set)
@@ -444,36 +506,26 @@ namespace scree
           moments[point.cell].rhs += pressure_of(point.properties) * monomials;
         });
       });
-      if (Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
-        GridTools::exchange_cell_data_to_ghosts<Moments<dim>, parallel::distributed::Triangulation<dim>>(
-            grid.triangulation(),
-            [&](const auto &cell) { return std::make_optional(moments[cell->active_cell_index()]); },
-            [&](const auto &cell, const Moments<dim> &value) { moments[cell->active_cell_index()] = value; });
-
-      const FineCells<dim> &fine = grid.fine_cells();
-      std::vector<double> sums{ 0, 0, 0 }; // points, pressure, squared residual
+      update_ghosts(grid, moments);
+      std::vector<double> sums{ 0, 0, 0 }; // points, magnitude of the pressure, squared residual
       for_each_set([&](const PointSet<dim> &points, const auto &pressure_of) {
         for (const auto &cell : points.cells())
           {
             Moments<dim> around;
-            for (unsigned int i = 0; i < Utilities::pow(3u, dim); ++i)
-              {
-                CellPlace<dim> place = fine.cells()[fine.of_index(cell.cell)].place;
-                for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= 3)
-                  place[a] += static_cast<int>(rest % 3) - 1;
-                if (const unsigned int near = fine.find(place); near != FineCells<dim>::none)
-                  {
-                    around.matrix += moments[fine.cells()[near].index].matrix;
-                    around.rhs += moments[fine.cells()[near].index].rhs;
-                  }
-              }
+            for_each_near(grid.fine_cells(), cell.cell, [&](const unsigned int near) {
+              if (near != FineCells<dim>::none)
+                {
+                  around.matrix += moments[near].matrix;
+                  around.rhs += moments[near].rhs;
+                }
+            });
             if (around.matrix[0][0] == 0.)
               continue;
             const Tensor<1, dim + 1> coefficients = fit(around);
             for_each_point(cell, [&](const auto &point) {
               const double pressure = pressure_of(point.properties);
               const double residual = pressure - coefficients * monomials_at(point.location, grid);
-              sums                  = { sums[0] + 1, sums[1] + pressure, sums[2] + residual * residual };
+              sums                  = { sums[0] + 1, sums[1] + std::abs(pressure), sums[2] + residual * residual };
             });
           }
       });

@@ -203,6 +203,7 @@ namespace scree
       add_value(row, "Largest p", "Pa", water.largest_pressure);
       add_value(row, "p oscillation", "-", pressure_oscillation(now.water, now.grid));
       add_value(row, "Volume error", "-", water.volume_error);
+      add_value(row, "Void share", "-", water.void_share);
       add_fronts(now, now.water, "Water front", row);
       add_value(row, "Water tip", "m", water.tip);
       if (!now.bodies.empty())
@@ -290,18 +291,24 @@ namespace scree
     }
 
 
-    /// What oscillates: column, bound of its mean over time (those of the stability maps), and what to do.
-    struct Oscillation
+    /// What is judged by its mean over time: column, bound (those of the time_sums are of the stability maps), and
+    /// what to do.
+    struct TimeMean
     {
       const char *column;
       double bound;
       const char *remedy;
     };
-    constexpr Oscillation oscillating[] = {
+    constexpr TimeMean judged_means[] = {
       { "Stress oscillation",
         0.2,
         "do not use single values of p'; write the recommended points per cell, or a smaller \"Courant number\"" },
-      { "p oscillation", 0.1, "do not use single values of p; write the recommended points per cell, or smaller cells" }
+      { "p oscillation",
+        0.1,
+        "do not use single values of p; write the recommended points per cell, or smaller cells" },
+      { "Void share",
+        0.05,
+        "levels of free water are too high by this share; write the same points per cell for soil and water" }
     };
   } // namespace
 
@@ -310,10 +317,10 @@ namespace scree
   std::vector<CheckResult> Statistics<dim>::results() const
   {
     std::vector<CheckResult> list;
-    for (unsigned int o = 0; o < oscillations.size(); ++o)
-      if (const double mean = oscillations[o] / history.time; mean > 0.)
+    for (unsigned int m = 0; m < time_sums.size(); ++m)
+      if (const double mean = time_sums[m] / history.time; mean > 0.)
         {
-          const auto &[column, bound, remedy] = oscillating[o];
+          const auto &[column, bound, remedy] = judged_means[m];
           list.push_back({ column, short_text(mean), short_text(bound), mean > bound, remedy, Finding::resolution });
         }
     return list;
@@ -356,9 +363,9 @@ namespace scree
     history.balance.obstacles.resize(now.totals.balance.obstacles.size());
     last_row = row_of(now);
     for (const auto &[column, value] : last_row)
-      for (unsigned int o = 0; o < oscillations.size(); ++o)
-        if (column == std::string(oscillating[o].column) + " (-)")
-          oscillations[o] += value * (time - history.time);
+      for (unsigned int m = 0; m < time_sums.size(); ++m)
+        if (column == std::string(judged_means[m].column) + " (-)")
+          time_sums[m] += value * (time - history.time);
     history.step    = step;
     history.time    = time;
     history.balance = now.totals.balance;

@@ -19,7 +19,7 @@ namespace scree
           throw EntryError("--safety: the soil still comes to rest with its strength divided by " +
                            number_text(bracket.rests) +
                            ", so its own weight does not make it fail. Check that the \"Region\" of the bodies has a "
-                           "slope, and the direction of \"Gravity\".");
+                           "slope that no obstacle holds, and the direction of \"Gravity\".");
       }
     return true;
   }
@@ -35,9 +35,12 @@ namespace scree
                     { "Settling", "Maximum time", parameters.settling.maximum_time },
                     "--safety holds the pore pressure of settled soil. Write a time above 0, in s.");
       for (const BodyParameters &body : parameters.bodies)
-        require_entry(body.material.law != "Nor-Sand" && body.material.law != "Nor-Sand (Jefferies-Been)",
+        require_entry((body.material.law != "Nor-Sand" && body.material.law != "Nor-Sand (Jefferies-Been)") ||
+                          parameters.safety.keeps(body.name),
                       { body.name, "Material", body.material.law },
-                      "the hardening of this law depends on the strength that --safety divides. Write Mohr-Coulomb.");
+                      "the hardening of this law depends on the strength that --safety divides. Write Mohr-Coulomb, or "
+                      "the body among "
+                      "\"Bodies not reduced\" of subsection Safety.");
       require_entry(parameters.time_step.mass_scaling == 1.,
                     { "Time step", "Mass scaling", parameters.time_step.mass_scaling },
                     "the times of --safety are those of the true inertia. Write 1.");
@@ -127,6 +130,7 @@ namespace scree
                        "comes to rest."
                  : std::string("rest: beyond the factor the soil did not come to rest in time, and moved less than "
                                "\"Displacement\".")));
+        folder.log("Zone        " + zone);
         folder.log("Results     " + path +
                    ": safety.csv; rests and fails, the trials beside the factor, with solution/points.pvd");
         return End::complete;
@@ -173,7 +177,10 @@ namespace scree
         }
         bracket.include(factor, trial.end);
         if (trial.end == TrialEnd::fails)
-          failed_by_displacement = trial.has_moved;
+          {
+            failed_by_displacement = trial.has_moved;
+            zone                   = trial.zone;
+          }
         record(factor, trial);
         if (trial.end != TrialEnd::undecided)
           keep_as(text_of(trial.end));
@@ -247,6 +254,7 @@ namespace scree
       Timer clock; // of all trials
       unsigned int n_trials       = 0;
       bool failed_by_displacement = false; // the last trial that failed
+      std::string zone;                    // the same
     };
   } // namespace
 

@@ -505,32 +505,63 @@ namespace scree
     };
 
 
-    /// Highest and lowest points of columns of cells. The free surface is the tops of all columns, and the bottoms of
-    /// those beside a column without soil. Where it is level within a cell, the slope is all the soil. Collective.
+    /// Columns of cells along the axis nearest to gravity.
+    template <int dim>
+    struct Columns
+    {
+      explicit Columns(const Scene<dim> &scene)
+          : up(-scene.forcing.gravity() / scene.forcing.gravity().norm())
+          , lower_corner(scene.grid.lower_corner())
+          , h(scene.grid.cell_size())
+      {
+        unsigned int axis = 0;
+        for (unsigned int a = 1; a < dim; ++a)
+          if (std::abs(up[a]) >= std::abs(up[axis]))
+            axis = a;
+        for (unsigned int a = 0; a < dim; ++a)
+          n_all *= n[a] = a == axis ? 1 : std::lround((scene.grid.upper_corner()[a] - lower_corner[a]) / h);
+      }
+
+      /// Number of the column in which a place is.
+      std::size_t at(const Point<dim> &x) const
+      {
+        std::size_t column = 0;
+        for (unsigned int a = 0; a < dim; ++a)
+          column = column * n[a] + std::clamp<long>((x[a] - lower_corner[a]) / h, 0, n[a] - 1);
+        return column;
+      }
+
+      /// Height of a place, m.
+      double height(const Point<dim> &x) const
+      {
+        return Tensor<1, dim>(x) * up;
+      }
+
+      const Tensor<1, dim> up;
+      const Point<dim> lower_corner;
+      const double h;                 // cell size, m
+      std::array<std::size_t, dim> n; // along each axis
+      std::size_t n_all = 1;
+
+      static constexpr double nowhere = std::numeric_limits<double>::lowest(); // height of an empty column
+    };
+
+
+    /// Highest and lowest points of columns. The free surface is the tops of all columns, and the bottoms of those
+    /// beside a column without soil. Where it is level within a cell, the slope is all the soil. Collective.
     template <int dim>
     Heights heights_of(const Scene<dim> &scene, const MPI_Comm communicator)
     {
-      constexpr double nowhere   = std::numeric_limits<double>::lowest();
-      const double h             = scene.grid.cell_size();
-      const Tensor<1, dim> up    = -scene.forcing.gravity() / scene.forcing.gravity().norm();
-      const Tensor<1, dim> sides = scene.grid.upper_corner() - scene.grid.lower_corner();
-      std::array<std::size_t, dim> n; // columns along each axis: one along the axis nearest to gravity
-      std::size_t axis = 0, n_columns = 1;
-      for (unsigned int a = 1; a < dim; ++a)
-        if (std::abs(up[a]) >= std::abs(up[axis]))
-          axis = a;
-      for (unsigned int a = 0; a < dim; ++a)
-        n_columns *= n[a] = a == axis ? 1 : std::lround(sides[a] / h);
-
+      const Columns<dim> columns(scene);
+      const auto &n               = columns.n;
+      const std::size_t n_columns = columns.n_all;
+      constexpr double nowhere    = Columns<dim>::nowhere;
       std::vector<double> tops(n_columns, nowhere), depths(n_columns, nowhere); // depth: minus the lowest height
       for_each_moving_point(scene.bodies, [&](const auto &, const auto &point) {
-        std::size_t column = 0;
-        for (unsigned int a = 0; a < dim; ++a)
-          column =
-              column * n[a] + std::clamp<long>((point.location[a] - scene.grid.lower_corner()[a]) / h, 0, n[a] - 1);
-        const double height = Tensor<1, dim>(point.location) * up;
-        tops[column]        = std::max(tops[column], height);
-        depths[column]      = std::max(depths[column], -height);
+        const std::size_t column = columns.at(point.location);
+        const double height      = columns.height(point.location);
+        tops[column]             = std::max(tops[column], height);
+        depths[column]           = std::max(depths[column], -height);
       });
       Utilities::MPI::max(tops, communicator, tops);
       Utilities::MPI::max(depths, communicator, depths);
@@ -550,7 +581,7 @@ namespace scree
           }
       const double top = *std::max_element(tops.begin(), tops.end());
       const double all = top + *std::max_element(depths.begin(), depths.end()), relief = top - lowest_of_surface;
-      return { all, relief < h ? all : relief };
+      return { all, relief < columns.h ? all : relief };
     }
 
 
@@ -564,6 +595,56 @@ namespace scree
         parts.push_back({ value(body, point), point.properties[body.layout.mass] });
       });
       return percentile(parts, 1. - part_that_moves, communicator);
+    }
+
+
+    /// Where soil has moved by more than half of a displacement, m, in words: volume, centre, the body that has most of
+    /// it, and the largest depth. Collective.
+    template <int dim>
+    std::string zone_of(const Scene<dim> &scene, const double displacement, const MPI_Comm communicator)
+    {
+      const Columns<dim> columns(scene);
+      constexpr double nowhere = Columns<dim>::nowhere;
+      std::vector<double> tops(columns.n_all, nowhere), depths(columns.n_all, nowhere); // of all; of the zone, minus
+      std::vector<double> sums(dim + 2 + scene.bodies.size(),
+                               0.); // volumes: times place, of all, of the zone, of bodies
+      unsigned int b = dim + 2;
+      for (const SoilBody<dim> &body : scene.bodies)
+        {
+          if (!body.is_rigid)
+            for_each_point(body.points, [&](const auto &point) {
+              const double volume        = point.properties[body.layout.volume];
+              const Tensor<1, dim> place = point.location - Point<dim>();
+              const double height        = columns.height(point.location);
+              double &top                = tops[columns.at(point.location)];
+              top                        = std::max(top, height);
+              sums[dim] += volume;
+              if ((place - vector_of<dim>(point.properties + body.layout.start)).norm() < 0.5 * displacement)
+                return;
+              double &depth = depths[columns.at(point.location)];
+              depth         = std::max(depth, -height);
+              for (unsigned int a = 0; a < dim; ++a)
+                sums[a] += volume * place[a];
+              sums[dim + 1] += volume;
+              sums[b] += volume;
+            });
+          ++b;
+        }
+      Utilities::MPI::sum(sums, communicator, sums);
+      Utilities::MPI::max(tops, communicator, tops);
+      Utilities::MPI::max(depths, communicator, depths);
+      double largest_depth = 0.;
+      for (std::size_t c = 0; c < tops.size(); ++c)
+        largest_depth = std::max(largest_depth, depths[c] > nowhere ? tops[c] + depths[c] : 0.);
+      std::string centre;
+      for (unsigned int a = 0; a < dim; ++a)
+        centre += (a > 0 ? ", " : "") + short_text(sums[a] / sums[dim + 1]);
+      const auto most = std::max_element(sums.begin() + dim + 2, sums.end());
+      const auto body = std::next(scene.bodies.begin(), most - sums.begin() - dim - 2);
+      return short_text(sums[dim + 1]) + (dim == 2 ? " m^3/m, " : " m^3, ") +
+             short_text(100. * sums[dim + 1] / sums[dim]) + " % of the soil, about (" + centre + ") m, down to " +
+             short_text(largest_depth) + " m below the surface; " + short_text(100. * *most / sums[dim + 1]) +
+             " % of it is of " + body->name;
     }
 
 
@@ -755,6 +836,8 @@ namespace scree
     trial.has_moved = trial.displacement > bounds.displacement;
     trial.time      = until_rest.time();
     trial.steps     = until_rest.step();
+    if (trial.end == TrialEnd::fails)
+      trial.zone = zone_of(scene, trial.displacement, communicator);
     return trial;
   }
 

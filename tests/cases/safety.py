@@ -10,7 +10,7 @@ import sys
 import time
 
 from case_tools import HERE, SCREE, check, log_of, rows_of, run
-from scree.variants import read_case, set_entries
+from scree.variants import read_case, read_entries, set_entries
 
 CASE = HERE.parents[1] / "prm/slopes/griffiths_lane.prm"
 WET = HERE.parents[1] / "prm/slopes/griffiths_lane_water.prm"
@@ -53,6 +53,23 @@ def factor():
     check(not (results / "safety" / "settled").exists(), "the settled state has been left behind")
     other = bracket(trials(run("two", slope(), "--safety", ranks=2)))
     check(other == (rests, fails), f"two ranks give {other}")
+
+
+def unreduced():
+    """The slope whose lower half keeps its strength fails above it, at a larger factor; the log says where. A name that is no body is an error."""
+    entries = {entry: value for entry, value in read_entries(CASE).items() if entry.startswith("Soil/")}
+    half = {"Bodies": "Soil, Upper", **{entry.replace("Soil/", "Upper/"): value for entry, value in entries.items()},
+            "Soil/Region": "y < 5 && y < (34 - x)/2", "Upper/Region": "y >= 5 && y < 10 && y < (34 - x)/2"}
+    results = run("half", slope(**half, **{"Safety/Bodies not reduced": "Soil"}), "--safety")
+    rests, fails = bracket(trials(results))
+    print(f"without the lower half: between {rests:g} and {fails:g}")
+    zone = re.search(r"^Zone +\S+ m\^3/m, (\S+) % of the soil, about \((\S+), (\S+)\) m, down to (\S+) m below the surface; (\S+) % of it is of (\w+)$",
+                     log_of(results / "safety"), re.MULTILINE)
+    check(rests > 1.5 and zone and zone[6] == "Upper" and float(zone[5]) > 90 and 5 < float(zone[3]) < 10 and 1 < float(zone[4]) < 6, log_of(results / "safety"))
+    faulty = pathlib.Path("half/case.prm")
+    faulty.write_text(set_entries(faulty.read_text(encoding="utf-8"), {"Safety/Bodies not reduced": "Lower"}), encoding="utf-8")
+    said = subprocess.run([SCREE, "case.prm", "--safety"], cwd="half", capture_output=True, text=True)
+    check(said.returncode == 1 and '"Bodies not reduced" = Lower: there is no such body. Write some of: Soil, Upper' in said.stderr, said.stderr)
 
 
 def clay(case, expected, bound, **entries):

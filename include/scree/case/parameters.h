@@ -22,23 +22,29 @@ namespace scree
   /// body.
   struct BodyParameters
   {
-    std::string name;                     ///< name of its subsection
-    SeedingParameters seeding;            ///< where it is, and its points
-    double conductivity = 0;              ///< of water, m/s, at the initial porosity; 0: that of subsection Water
-    MaterialParameters material;          ///< law and its entries
-    InitialStateParameters initial_state; ///< stress before the first step
-    std::string added_by;                 ///< subsection of the stage in which it appears; empty: it starts the case
-    bool is_there = true;                 ///< false: a later stage adds it
+    std::string name;                       ///< name of its subsection
+    SeedingParameters seeding;              ///< where it is, and its points
+    std::string conductivity_text = "auto"; ///< as the entry says
+    double conductivity           = 0;      ///< of water, m/s, at the initial porosity; 0: that of subsection Water
+    MaterialParameters material;            ///< law and its entries
+    InitialStateParameters initial_state;   ///< stress before the first step
+    std::string added_by;                   ///< subsection of the stage in which it appears; empty: it starts the case
+    bool is_there = true;                   ///< false: a later stage adds it
 
     /// Declares the body's subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm)
     {
       prm.enter_subsection(name);
       seeding.add_parameters(prm);
-      prm.add_parameter("Hydraulic conductivity",
-                        conductivity,
-                        "m/s; conductivity (Darcy) of this body at its initial porosity; 0: as in subsection Water.",
-                        dealii::Patterns::Double(0));
+      prm.declare_entry(
+          "Hydraulic conductivity",
+          conductivity_text,
+          dealii::Patterns::Anything(),
+          "m/s; conductivity (Darcy) of this body at its initial porosity. auto: as in subsection Water.");
+      prm.add_action("Hydraulic conductivity", [this](const std::string &text) {
+        conductivity_text = text;
+        conductivity      = text == "auto" ? 0. : number_of(text);
+      });
       material.add_parameters(prm);
       initial_state.add_parameters(prm);
       prm.leave_subsection();
@@ -105,9 +111,16 @@ namespace scree
   /// Subsection Safety: the search of scree --safety, and a strength that is reduced in a run.
   struct SafetyParameters
   {
-    double strength_factor = 1;    ///< divides the strength from the release on
-    double tolerance       = 0.01; ///< of the factor
-    double displacement    = 0.02; ///< of a slope that fails, over its height
+    double strength_factor = 1;         ///< divides the strength from the release on
+    double tolerance       = 0.01;      ///< of the factor
+    double displacement    = 0.02;      ///< of a slope that fails, over its height
+    std::vector<std::string> unreduced; ///< bodies that keep their strength
+
+    /// Whether a body keeps its strength.
+    bool keeps(const std::string &body) const
+    {
+      return std::find(unreduced.begin(), unreduced.end(), body) != unreduced.end();
+    }
 
     /// Longest duration of a trial, in sqrt(height of the soil/gravity); what moves then fails.
     static constexpr double longest_trial = 40;

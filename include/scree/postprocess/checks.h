@@ -6,6 +6,8 @@
 #include <scree/boundary/boundary_conditions.h>
 #include <scree/postprocess/statistics.h>
 
+#include <unordered_map>
+
 namespace scree
 {
   /// Looks at the points now and then for what a sound run does not do, and logs where and when it first did.
@@ -34,8 +36,7 @@ namespace scree
 
     /// Looks at the points if the last look is some steps old, or at the end. Collective.
     /// @param n_lost points of soil that this rank has lost so far
-    /// @return whether it has looked
-    bool look(const std::list<SoilBody<dim>> &bodies,
+    void look(const std::list<SoilBody<dim>> &bodies,
               const std::list<WaterPhase<dim>> &water,
               const double n_lost,
               const double time,
@@ -56,7 +57,7 @@ namespace scree
     /// What a run watches itself for.
     enum Check : unsigned int
     {
-      speed,     ///< fastest point over the largest 99.9 % quantile of the speeds so far
+      speed,     ///< fastest point over the largest speed so far that 0.1 % of the points, ten at most, exceed
       depth,     ///< of a point below the bed, over the cell size
       shrinkage, ///< V_0/V of soil
       dilation,  ///< V/V_0 of soil in contact, mean of a cell
@@ -66,6 +67,7 @@ namespace scree
       wall,   ///< displacement, m, of soil within a cell of a closed side wall, by more than a cell to it or up it
       slide,  ///< the same of soil that has moved by more than a cell along a wall at which it has stood
       lost,   ///< points of soil that left the box
+      suction, ///< part of the water with suction at the start that has lost half of it at the second look
       n_checks
     };
 
@@ -73,7 +75,8 @@ namespace scree
     struct Suspect
     {
       double value = 0.; ///< see Check
-      double found = 0.; ///< of the point: speed, m/s, depth, m, V/V_0, way, m, or the number of those lost
+      double found =
+          0.; ///< of the point: speed, m/s, depth, m, V/V_0, way, m, the number of those lost, or suction, Pa
       std::string point; ///< body, number and place, in words
       double time = 0.;  ///< s
 
@@ -93,7 +96,13 @@ namespace scree
     void look_at_dilation(const SoilBody<dim> &body);
     void look_at_walls(const std::list<SoilBody<dim>> &bodies);
 
-    /// @param usual the largest 99.9 % quantile of the speeds so far, m/s
+    /// Keeps the pressures of points with suction at the first look. Collective.
+    void keep_suction(const std::list<WaterPhase<dim>> &water);
+
+    /// Compares those of the second look with them. Collective.
+    void look_at_suction(const std::list<WaterPhase<dim>> &water);
+
+    /// @param usual the largest speed so far that 0.1 % of the points, ten at most, exceed, m/s
     template <class Phases>
     void look_at_speeds(const Phases &phases, double &usual);
 
@@ -106,9 +115,12 @@ namespace scree
     const BoundaryConditions<dim> *walls;
     const std::set<unsigned int> inflow_faces;
     RunFolder &folder;
-    double usual_speed_of_soil = 0., usual_speed_of_water = 0.; // largest 99.9 % quantiles so far, m/s
+    double usual_speed_of_soil = 0., usual_speed_of_water = 0.; // see look_at_speeds(), m/s
     Suspects now, worst;
     std::array<bool, n_checks> is_told{};
+    // Pressures at the first look of points with more than a quarter of the largest suction, Pa, by number, for each
+    // phase of water; none after the second look, and without suction.
+    std::vector<std::unordered_map<dealii::types::particle_index, double>> pressures_at_start;
     unsigned long long last_step = 0;
     bool has_looked              = false;
     bool has_soil                = false;

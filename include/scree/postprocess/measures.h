@@ -241,11 +241,11 @@ namespace scree
   }
 
   /// Oscillation of P: the rms, over the points of all bodies, of P minus a linear fit of P over the 3^dim cells around
-  /// the point's cell, over the mean of P. 0 where the soil has no stress. Collective.
+  /// the point's cell, over the mean of |P|. 0 where the soil has no stress. Collective.
   template <int dim>
   double stress_oscillation(const std::list<SoilBody<dim>> &bodies, const BackgroundGrid<dim> &grid);
 
-  /// The same of the pore pressure at the water points. 0 unless its mean is positive. Collective.
+  /// The same of the pore pressure at the water points. Collective.
   template <int dim>
   double pressure_oscillation(const std::list<WaterPhase<dim>> &water, const BackgroundGrid<dim> &grid);
 
@@ -259,6 +259,7 @@ namespace scree
     double largest_pressure  = 0; ///< Pa
     double tip               = 0; ///< largest x of points; the lower corner's x without points, m
     double volume_error      = 0; ///< grains and water beyond their cells' volume, over all grains and water
+    double void_share        = 0; ///< volume without water in cells of free water, see doc/output.md
   };
 
   /// Collective.

@@ -334,7 +334,7 @@ namespace scree
       return motion;
     }
 
-    /// The oscillations of p' and p, means over the time since the first row.
+    /// The oscillations of p' and p and the void share, means over the time since the first row.
     std::vector<CheckResult> results() const;
 
     /// Saves or loads the last row and the state that differences start from (Boost).
@@ -343,7 +343,7 @@ namespace scree
     {
       archive &history.start;
       archive &last_row &history.step &history.time &history.balance &motion;
-      archive &oscillations;
+      archive &time_sums;
     }
 
   private:
@@ -353,7 +353,7 @@ namespace scree
     SoilMotion<dim> motion;
     RowHistory<dim> history;
     StatisticsRow last_row;
-    std::array<double, 2> oscillations{}; // of p' and p: integrals over time, s
+    std::array<double, 3> time_sums{}; // of the columns that are judged by their means: integrals over time, s
   };
 } // namespace scree
 

@@ -95,11 +95,9 @@ namespace scree
 
       if (row_is_due || picture_is_due || output_times.checkpoint_is_due(time))
         folder.require_presence();
+      checks.look(scene.bodies, scene.water, state.totals.n_lost, time, state.step, at_start_or_end);
       if (row_is_due)
-        {
-          checks.look(scene.bodies, scene.water, state.totals.n_lost, time, state.step, at_start_or_end);
-          write_row(state);
-        }
+        write_row(state);
       else if (picture_is_due)
         maps.sample(scene.bodies, time);
       if (picture_is_due)

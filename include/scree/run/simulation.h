@@ -79,6 +79,7 @@ namespace scree
     bool has_moved           = false;               ///< whether this is beyond the displacement of soil that fails
     double time              = 0.;                  ///< s
     unsigned long long steps = 0;                   ///< number of time steps
+    std::string zone;                               ///< where the soil has moved, in words; empty if it rests
   };
 
   /// A run: a scene, the scheme that moves it, and its output. The top-level class of a run; `--safety` and `--advise`

@@ -217,7 +217,8 @@ namespace scree
                   "without friction the soil needs some cohesion to have any strength.");
     require_entry(tension_cut_off <= apex(),
                   { subsection, "Tension cut-off", tension_cut_off },
-                  "cohesion and friction allow at most c cot(phi) = " + std::to_string(apex()) + " Pa; lower it.");
+                  "cohesion and friction allow at most c cot(phi) = " + std::to_string(apex()) +
+                      " Pa; lower it, or look at the unit of \"Cohesion\", Pa.");
     check_softening(subsection);
   }
 
@@ -332,7 +333,9 @@ namespace scree
     AssertThrow(outside <= 1e-9 * scale,
                 ExcMessage("Mohr-Coulomb cannot bear the initial stress, which is outside the yield surface by " +
                            std::to_string(outside) +
-                           " Pa. Remedy: a K0 of at least (1 - sin phi)/(1 + sin phi), or cohesion."));
+                           " Pa. Remedy: a K0 of at least (1 - sin phi)/(1 + sin phi), or cohesion; look at the units "
+                           "of \"Friction angle\", "
+                           "degrees, and \"Cohesion\", Pa."));
     elastic.initialise(wanted_stress, strain, stress, nullptr);
     internal_variables[0] = 0;
   }

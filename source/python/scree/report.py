@@ -143,7 +143,7 @@ def safety_folder(run):
 
 def factor_of_safety(folder):
     """What the log of --safety says of the factor, and a table of its trials."""
-    lines = re.findall(r"^(Factor of safety|Set by|Stopped) +(.*)$", (folder / "log.txt").read_text(encoding="utf-8"), re.MULTILINE)
+    lines = re.findall(r"^(Factor of safety|Set by|Zone|Stopped) +(.*)$", (folder / "log.txt").read_text(encoding="utf-8"), re.MULTILINE)
     with open(folder / "safety.csv", encoding="utf-8", newline="") as trials:
         head, *rows = csv.reader(trials)
     said = "\n".join(f'<div class="{"bad" if label == "Stopped" else "good"}"><b>{label}</b> {html.escape(text)}</div>' for label, text in lines)
