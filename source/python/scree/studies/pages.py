@@ -25,7 +25,7 @@ class Topic(NamedTuple):
 
 # Pages in the order of the list.
 TOPICS = {
-    "run_out": Topic("Run-out of dry soil", ("run_out_limits", "cylinders", "run_out", "run_out_causes", "dry_slope", "transfer_rate", "granular_dam_break")),
+    "run_out": Topic("Run-out of dry soil", ("run_out_limits", "cylinders", "run_out", "dry_slope", "transfer_rate", "granular_dam_break")),
     "safety": Topic("Factor of safety", ("strength_reduction",)),
     "saturated_slopes": Topic("Saturated slopes", ("saturated_run_out_limits", "saturated_slope", "submerged_slope")),
     "drained_or_coupled": Topic("Drained, coupled or undrained", ("regimes", "point_sets", "single_point")),
@@ -34,9 +34,9 @@ TOPICS = {
     "impact_and_gaps": Topic("Impact and gaps", ("impact", "air_gap")),
     "infiltration": Topic("Infiltration", ("wetting_front",)),
     "waves_and_convergence": Topic("Waves and convergence", ("bar", "manufactured")),
-    "soil_models": Topic("Soil models and quality of the stress", ("contours", "nor_sand_density", "low_stress", "shear_bands")),
+    "soil_models": Topic("Soil models and quality of the stress", ("contours", "low_stress", "shear_bands")),
     "experiments": Topic("Experiments", ("aluminium_bars", "martin_moyce")),
-    "cost": Topic("Cost", ("advice", "size", "scaling", "peers")),
+    "cost": Topic("Cost", ("advice", "scaling", "peers")),
 }
 
 
