@@ -43,6 +43,12 @@ class Command(argparse.ArgumentParser):
             sys.exit(f"{self.prog}: {_text(error)}")
 
 
+def aligned(head, rows, n_left=2):
+    """Lines of a table of texts, whose first `n_left` columns begin at the left; the others end at the right."""
+    widths = [max(map(len, cells)) for cells in zip(head, *rows)]
+    return "\n".join("  ".join(f"{cell:{'<' if place < n_left else '>'}{widths[place]}}" for place, cell in enumerate(cells)).rstrip() for cells in [head, *rows])
+
+
 def _text(error):
     if isinstance(error, OSError) and error.filename and error.strerror:
         return f"{error.filename}: {error.strerror}" + (". Is the path right?" if isinstance(error, FileNotFoundError) else "")

@@ -204,9 +204,7 @@ def draw_scale_bar(axes, window):
     """A bar of 1, 2 or 5 times a power of ten, about a quarter of the width."""
     width = window[1] - window[0]
     inch = width / (axes.figure.get_figwidth() * axes.get_position().width)
-    longest = min(0.3 * width, 1.5 * inch)
-    power = 10. ** np.floor(np.log10(longest))
-    length = max(power * factor for factor in (1, 2, 5) if power * factor <= longest)
+    length = terrain.nice_length(min(0.3 * width, 1.5 * inch))
     x, y, thick = window[0] + 0.15 * inch, window[2] + 0.13 * inch, 0.05 * inch
     for part, colour in ((0, "black"), (1, "white")):
         axes.add_patch(matplotlib.patches.Rectangle((x + part * length / 2, y), length / 2, thick, facecolor=colour, edgecolor="black", lw=0.6, zorder=8))

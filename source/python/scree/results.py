@@ -160,8 +160,18 @@ def read_checks(run):
     file = pathlib.Path(run) / "checks.csv"
     if not file.exists():
         return []
-    with open(file, encoding="utf-8", newline="") as rows:
-        return [Check(row["check"], row["value"], row["bound"], row["class"], row["is_exceeded"] == "1", row["place"], row["remedy"]) for row in csv.DictReader(rows)]
+    return [Check(row["check"], row["value"], row["bound"], row["class"], row["is_exceeded"] == "1", row["place"], row["remedy"]) for row in read_rows(file)]
+
+
+def read_rows(path):
+    """The rows of a table in CSV, {column: text}; lines that begin with # are comments."""
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader((line for line in file if not line.startswith("#")), skipinitialspace=True))
+
+
+def write_rows(path, head, rows):
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([head, *rows])
 
 
 def read_table(path):
@@ -261,13 +271,6 @@ def _read_piece(path):
     data = grid.GetPointData()
     arrays = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
     return Points(np.nan, vtk_to_numpy(grid.GetPoints().GetData()), arrays)
-
-
-def _number(word):
-    try:
-        return float(word)
-    except ValueError:
-        return np.nan
 
 
 def _gdal():

@@ -75,13 +75,16 @@ def value_at(raster, x, y):
     return np.where(is_inside, raster.values[np.clip(row, 0, rows - 1), np.clip(column, 0, columns - 1)], np.nan)
 
 
+def nice_length(length):
+    """The largest of 1, 2 and 5 times a power of ten up to a length."""
+    power = 10. ** np.floor(np.log10(length))
+    return max(factor * power for factor in (1, 2, 5) if factor * power <= length * (1 + 1e-9))
+
+
 def contour_step(raster, count=12):
-    """Height between contours, m, of which there are about `count`: 1, 2 or 5 times a power of ten."""
-    least, largest = np.nanmin(raster.values), np.nanmax(raster.values)
-    if not largest > least:
-        return 1.
-    power = 10. ** np.floor(np.log10((largest - least) / count))
-    return next(power * factor for factor in (1, 2, 5, 10) if power * factor * count >= largest - least)
+    """Height between contours, m, of which there are about `count`."""
+    height = np.nanmax(raster.values) - np.nanmin(raster.values)
+    return 1 / nice_length(count / height) if height > 0 else 1.
 
 
 def draw_shade(axes, ground, strength, zorder, soil=None):

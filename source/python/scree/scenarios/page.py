@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Files of a study: the table of its runs, maps of probability, pictures, and the report that holds them."""
 
-import csv
 import html
 import shutil
 from typing import NamedTuple
@@ -48,13 +47,10 @@ def write_all(study):
 
 def write_table(study, done):
     """A row for each run: parameters, verdict, results."""
-    with open(study.folder / "runs.csv", "w", encoding="utf-8", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(["run", *(one.label for one in study.parameters), "verdict", "checks", "wall_time_s", *map(column, done.results), "message"])
-        for number, row in zip(study.numbers, study.rows):
-            one, found = done.verdicts[number], done.numbers.get(number, {})
-            values = [_cell(found.get(result, np.nan)) for result in done.results]
-            table.writerow([number, *row, one.word, _checks(one), _cell(one.seconds), *values, one.message])
+    head = ["run", *(one.label for one in study.parameters), "verdict", "checks", "wall_time_s", *map(column, done.results), "message"]
+    results.write_rows(study.folder / "runs.csv", head, (
+        [number, *row, one.word, _checks(one), _cell(one.seconds), *(_cell(found.get(result, np.nan)) for result in done.results), one.message]
+        for number, row in zip(study.numbers, study.rows) for one, found in [(done.verdicts[number], done.numbers.get(number, {}))]))
 
 
 def _checks(verdict):

@@ -71,7 +71,9 @@ def read(file):
     parameters = [_parameter(file, table, entry, value) for table in ("parameters", "factors") for entry, value in given.get(table, {}).items()]
     if not parameters:
         raise ValueError(f"{file}: no entry differs between the runs. Write one into [parameters] or [factors]")
-    _check_entries(file, base, fixed, parameters)
+    entries = {kind: [one.entry for one in parameters if one.is_factor == (kind == "factors")] for kind in ("parameters", "factors")}
+    settings.check_entries(file, base, {"set": fixed, **entries}, fixed, {
+        "Output directory": ': the runs have folders of their own. Name that of the study by the entry "results"'})
     for key, value in fixed.items():
         _check_file(file, case, base, "set", key, value)
     fixed = {key: _moved(file, value) for key, value in fixed.items()}
@@ -143,21 +145,6 @@ def _observed(file, given, entries):
         return observed.read(file.parent, given["observed"])
     except ValueError as error:
         raise ValueError(f"{file}: [observed], {error}") from error
-
-
-def _check_entries(file, base, fixed, parameters):
-    """That the case may have these entries, and none of them twice."""
-    for table, entries in (("set", fixed), ("parameters", [one.entry for one in parameters if not one.is_factor]),
-                           ("factors", [one.entry for one in parameters if one.is_factor])):
-        try:
-            variants.check_entries(base, dict.fromkeys(entries, ""))
-        except ValueError as error:
-            raise ValueError(f"{file}: [{table}]: {error}") from error
-        for entry in entries:
-            if entry == "Output directory":
-                raise ValueError(f'{file}: [{table}], entry "{entry}": the runs have folders of their own. Name that of the study by the entry "results"')
-            if table == "parameters" and entry in fixed:
-                raise ValueError(f'{file}: [{table}], entry "{entry}": it is in [set] as well. Remove one of them')
 
 
 def _moved(file, value):

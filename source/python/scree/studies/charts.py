@@ -5,7 +5,6 @@ Each has `timed` (its runs are made one at a time), `keep(run)` (called for each
 A chart is as wide as a page and shows at most five curves an axes, with their names beside them.
 """
 
-import csv
 import math
 
 import matplotlib.colors
@@ -15,6 +14,7 @@ import matplotlib.ticker
 import numpy as np
 
 from scree.pictures.tables import name_lines
+from scree.results import read_rows, write_rows
 from scree.studies.measures import BOUNDS, DECIDING
 
 plt.rcParams.update({"svg.hashsalt": "scree", "svg.fonttype": "none", "font.size": 10, "axes.titlesize": 10, "axes.grid": True, "grid.alpha": 0.3,
@@ -179,16 +179,12 @@ class RunCurves(Curves):
     def write(self, rows, target):
         table = target.with_name(f"{target.name}_curves.csv")
         if self.found:
-            with open(table, "w", newline="", encoding="utf-8") as file:
-                writer = csv.writer(file, lineterminator="\n")
-                writer.writerow(["curve", "x", "y"])
-                writer.writerows([name, f"{x:.4g}", f"{y:.4g}"] for name, points in self.found.items() for x, y in zip(*points))
+            write_rows(table, ["curve", "x", "y"], ([name, f"{x:.4g}", f"{y:.4g}"] for name, points in self.found.items() for x, y in zip(*points)))
         if not table.exists():  # none of the runs of a short version has a curve
             return
         curves = {}
-        with open(table, newline="", encoding="utf-8") as file:
-            for row in csv.DictReader(file):
-                curves.setdefault(row["curve"], []).append((float(row["x"]), float(row["y"])))
+        for row in read_rows(table):
+            curves.setdefault(row["curve"], []).append((float(row["x"]), float(row["y"])))
         figure = plt.figure(figsize=(WIDTH, self.height))
         self.draw(figure, {name: np.array(points).T for name, points in curves.items()}, rows)
         save(figure, target)

@@ -12,18 +12,6 @@ import numpy as np
 
 from scree import results
 
-# Part of an error message of scree -> cause, in short.
-CAUSES = {
-    "the stable step has fallen": "step fell",
-    "a point moves at": "speed",
-    "is not a number": "strain not a number",
-    "cannot follow its deformation": "deformation of a step",
-    "left the box": "left the box",
-    "did not converge": "pressure solver",
-    "nothing sets the level": "no level of p",
-}
-
-
 # Bounds of the stability maps, the same in all of them. A column of their tables has the name of its bound; what a map takes for the
 # unit of p and for "error" stands in its introduction, which cannot move a bound.
 BOUNDS = {
@@ -57,7 +45,7 @@ def state_of(columns, ended, broken=False):
     - "blow-up": more energy came from nothing than the run had to release ("gain" > 1), or a number is not finite (`broken`)
     - "J out of bounds": before that, V/V_0 of a soil point left its bounds, in a row of statistics, in a picture, or in the message
       that the run stopped with (`volume_ratios`)
-    - "blow-up", too: the program stopped for another reason, the time limit included (`cause` tells which)
+    - "blow-up", too: the program stopped for another reason, the time limit included
     - "energy gain", "oscillating" (of p or p'; a number that is not finite oscillates), "wrong" ("error"): the column is above its bound
     - "stable": none of these
     """
@@ -112,15 +100,6 @@ def map_table(rows):
     return [("quantity, worst of all cells", *groups, "bound"), ("stable cells", *map(stable_of, groups.values()), "all"),
             *((name, *(worst(chosen, name) for chosen in groups.values()), f"{BOUNDS[name]:g}")
               for name in BOUNDS if name in rows[0])]
-
-
-def cause(run):
-    """Why a run stopped, in short; "-" for one that ended."""
-    if run.ended:
-        return "-"
-    if run.exit_code == 124:
-        return "time limit"
-    return next((short for message, short in CAUSES.items() if message in run.log), f"exit code {run.exit_code}")
 
 
 def has_rows(run):

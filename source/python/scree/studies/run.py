@@ -9,7 +9,6 @@ chart and the page of its topic go to doc/studies/pages; with --quick, a short v
 """
 
 import concurrent.futures
-import csv
 import hashlib
 import itertools
 import json
@@ -20,6 +19,7 @@ import subprocess
 import tempfile
 
 from scree.command import ROOT, Command, program
+from scree.results import read_rows, write_rows
 from scree.studies.charts import StabilityMap
 from scree.studies.pages import TOPICS, index_text, page_text, topic_of
 from scree.studies.rows import Rows
@@ -125,16 +125,12 @@ def _value(word):
 
 def write_table(rows, table):
     names = list(dict.fromkeys(name for row in rows for name in row))
-    with open(table, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, fieldnames=names, restval="nan", lineterminator="\n")
-        writer.writeheader()
-        writer.writerows({name: _text(value) for name, value in row.items()} for row in rows)
+    write_rows(table, names, ([_text(row.get(name, "nan")) for name in names] for row in rows))
 
 
 def read_table(table):
     """The rows of a table: numbers are floats, True and False are themselves, the rest is text."""
-    with open(table, newline="", encoding="utf-8") as file:
-        return Rows({name: _value(word) for name, word in row.items()} for row in csv.DictReader(file))
+    return Rows({name: _value(word) for name, word in row.items()} for row in read_rows(table))
 
 
 def row_of(study, run):

@@ -3,7 +3,6 @@
 to write one."""
 
 import atexit
-import csv
 import dataclasses
 import functools
 import importlib
@@ -53,8 +52,7 @@ def product(*axes):
 
 def reference_rows(name):
     """The rows of a table of doc/studies/reference, {column: text}."""
-    with open(ROOT / "doc" / "studies" / "reference" / f"{name}.csv", encoding="utf-8") as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+    return results.read_rows(ROOT / "doc" / "studies" / "reference" / f"{name}.csv")
 
 
 @functools.cache

@@ -49,9 +49,7 @@ def measure(run):
     heights = np.array([failure_height(points, place, run.labels["h"]) for place in failure[:, 0]])
     front = places[np.flatnonzero(depth(points, places) > BAR)[-1]]
     return {SURFACE: np.sqrt(np.mean(error**2)), LARGEST: np.max(np.abs(error)), FRONT: front, OVER: front / LAST,
-            TIP: x[int(0.995 * x.size)], FAILURE: np.sqrt(np.mean((heights - failure[:, 1])**2)),
-            "kinetic over released energy": run.statistics("Kinetic energy (J)")[-1]
-            / np.ptp(run.statistics("Potential energy (J)"))}
+            TIP: x[int(0.995 * x.size)], FAILURE: np.sqrt(np.mean((heights - failure[:, 1])**2))}
 
 
 def base_entries(base):

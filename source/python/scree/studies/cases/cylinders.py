@@ -45,7 +45,6 @@ def measure(run):
               for place in places]
     front = places[np.flatnonzero(np.array(depths) > 0.02)[-1]] + WIDTH / 2 - 1
     return {RUN_OUT: front, "run-out, 99 %": np.interp(0.99 * mass[-1], mass, radius[order]) - 1,
-            "over measured": front / measured(run.labels["a"]),
             "height": np.percentile(points.positions[radius < 0.1, 2], 99)}
 
 

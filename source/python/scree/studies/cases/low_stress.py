@@ -27,11 +27,7 @@ def variant(law, pores, part, height):
 
 
 def measure(run):
-    height = run.labels["height"]
-    suction = -min(run.columns.get("Smallest p (Pa)", [0.]))  # dry soil has none
     return {**classify(run, {"oscillation of p'": mean_oscillation(run, "Stress oscillation (-)")}),
-            "front/height": run.statistics("Front 99 % (m)")[-1] / height,
-            "suction/weight": suction / (1000 * 9.81 * run.labels["gravity"] * height),
             "unresolved": run.statistics("Unresolved")[-1]}
 
 

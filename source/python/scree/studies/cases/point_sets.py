@@ -16,25 +16,10 @@ SOILS = {"dense": "slopes/slope_saturated_dense", "loose": "slopes/slope_saturat
          "Mohr-Coulomb": "slopes/slope_saturated_mohr_coulomb"}
 FRONT, OSCILLATION, WATER = "front 99.5 % (m)", "p oscillation", "change of water mass"
 SHOWN = (1., 4., 12.)  # s
-CELL = 0.05  # m, of the cases
 
 
 def soil(name):
     return Variant({"soil": name}, {}, f"prm/{SOILS[name]}.prm")
-
-
-def deposit_angle(soil):
-    """Slope of the deposit, degrees: a line through its surface from 20 to 80 % of its height; nan without one.
-
-    The surface is the highest point in each strip of a cell's width; a strip counts down the slope from the crest on.
-    """
-    strips = np.floor(soil.positions[:, 0] / CELL).astype(int)
-    tops = {strip: np.max(soil.positions[strips == strip, 1]) for strip in np.unique(strips)}
-    x = (np.array(sorted(tops)) + 0.5) * CELL
-    y = np.array([tops[strip] for strip in sorted(tops)])
-    crest = np.max(np.flatnonzero(y >= 0.8 * np.max(y)))
-    on_slope = (np.arange(len(x)) >= crest) & (y > 0.2 * np.max(y))
-    return math.degrees(math.atan(-np.polyfit(x[on_slope], y[on_slope], 1)[0])) if np.sum(on_slope) >= 3 else math.nan
 
 
 def pressure_share(run):
@@ -50,12 +35,8 @@ def measure(run):
     water = run.statistics("Water mass (kg)") + run.statistics("Water lost (kg)")
     oscillation = run.statistics("p oscillation (-)")
     return {"reached (s)": time[-1], "pressure share (%)": pressure_share(run),
-            "front 90 % (m)": run.statistics("Front 90 % (m)")[-1],
             FRONT: run.statistics("Front 99.5 % (m)")[-1],
-            "water front 99.5 % (m)": run.statistics("Water front 99.5 % (m)")[-1],
-            "angle (degrees)": deposit_angle(run.points()) if run.labels["end"] > 1 else math.nan,
             OSCILLATION: np.trapz(oscillation, time) / np.ptp(time),
-            "largest suction (kPa)": -1e-3 * np.nanmin(run.statistics("Smallest p (Pa)")),
             WATER: water[-1] / water[0] - 1,
             "numerical dissipation (J)": run.statistics("Numerical dissipation (J)")[-1],
             "J released": potential[0] - potential[-1]}

@@ -8,7 +8,7 @@ import numpy as np
 from scree.pictures.tables import name_lines
 from scree.studies.charts import Curves
 from scree.studies.limits import Limit
-from scree.studies.measures import lost_energy, mean_depth
+from scree.studies.measures import lost_energy
 from scree.studies.study import Study, Variant
 from scree.studies.words import filled
 
@@ -28,7 +28,7 @@ CELLS_PER_METRE = {**{(COLUMN, soil, treatment): FOUR for treatment in TREATMENT
                    (SLOPE, "loose", LOW_PIC): FOUR, (SATURATED, "loose", FRICTION): WET,
                    (SATURATED, "dense", FRICTION): WET, (PERMEABLE, "dense", FRICTION): WET}
 RECOMMENDED = {COLUMN: LOW_PIC, SLOPE: LOW_PIC, SATURATED: FRICTION, PERMEABLE: FRICTION}
-QUANTILES = (80, 90, 95, 99, 99.5)
+QUANTILES = (90, 99)
 FRONT, TIP = "front 90 % (m)", "front 99 % (m)"
 
 
@@ -40,19 +40,9 @@ def front(points, percent):
     return np.interp(percent / 100 * mass[-1], mass, x[order])
 
 
-def front_of_depth(points, depth, width=0.1):
-    """Largest x around which the soil, averaged over `width`, is `depth` deep, m."""
-    x = points.positions[:, 0]
-    centres = np.arange(width / 2, x.max() + width, width / 20)
-    depths = mean_depth(x, points.arrays["volume"], centres - width / 2, centres + width / 2)
-    return centres[np.flatnonzero(depths >= depth)[-1]]
-
-
 def measure(run):
     points = run.points()
     return {**{f"front {percent:g} % (m)": front(points, percent) for percent in QUANTILES},
-            "front by depth 0.05 m (m)": front_of_depth(points, 0.05),
-            "centre of mass (m)": np.average(points.positions[:, 0], weights=points.arrays["mass"]),
             "energy lost numerically (-)": lost_energy(run)}
 
 

@@ -82,19 +82,11 @@ def variants():
 def measure(run):
     dissipation, columns = run.statistics("Numerical dissipation (J)"), run.columns
     wave = 1000 * GRAVITY * 0.05**2 / 4 if run.labels["scene"] == "sloshing" else None
-    kinetic = run.statistics("Kinetic energy (J)")
 
     def mean(name):
         return float(np.mean(columns[name][1:])) if name in columns else math.nan
-
-    def last(name):
-        return float(columns[name][-1]) if name in columns else float(columns[f"Water {name[0].lower()}{name[1:]}"][-1])
     return {"dissipation": float(dissipation[-1] / (wave or measures.released_energy(run))),
-            "gain": measures.energy_gain(run, wave),
-            "p oscillation": mean("p oscillation (-)"), "stress oscillation": mean("Stress oscillation (-)"),
-            "volume error": mean("Volume error (-)"),
-            "amplitude lost a period": 1 - (max(kinetic[-41:]) / max(kinetic[:41]))**(1 / 8) if wave else math.nan,
-            "front 90 %": last("Front 90 % (m)"), "front 99 %": last("Front 99 % (m)")}
+            "p oscillation": mean("p oscillation (-)"), "stress oscillation": mean("Stress oscillation (-)")}
 
 
 def ratios(rows, transfer, others):
