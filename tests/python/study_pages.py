@@ -64,7 +64,7 @@ check("order of the misses", [text for _, text in pages.misses(Study, [], [*clai
 check("order of the results", pages.results(Study, [], claims) == ["Limited.", "Good."])
 check("claims that hold", pages.n_held(claims) == "2 of 4")
 check("a sentence a line", pages.sentences("One. Two et al. 2005 are there. 3 are not.", "- ", "  ") == ["- One.", "  Two et al. 2005 are there.", "  3 are not."])
-check("no line begins a list", all(not pages.MARKUP.match(line.split()[0]) for line in pages.filled("word - " * 60)))
+check("no line begins a list", all(not pages.MARKUP.match(" " + line) for line in pages.filled("word - " * 60)))
 
 rows = Rows([{"kind": "a", "cells": 4, "gain": 0.02}, {"kind": "b", "cells": 2, "gain": 0.1}, {"kind": "a", "cells": 2, "gain": 0.01}])
 check("rows", rows.where(kind="a").values["gain"] == [0.02, 0.01] and rows.where(lambda row: row["gain"] > 0.05).n == 1 and rows.first(kind="c") is None

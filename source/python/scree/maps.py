@@ -135,7 +135,7 @@ def release(run):
 def window_of(run, maps, source):
     """(x, x, y, y) of the soil of all maps and the release, with a margin, within the box; m."""
     box, entries = results.read_box(run), variants.read_entries(pathlib.Path(run) / "parameters.prm")
-    origin = terrain.origin_of_maps(entries, 3)
+    origin = results.local_origin(entries)[:2]
     lower, upper = box.lower[:2] + origin, box.upper[:2] + origin
     corners = []
     for raster, shown in [(one.raster, np.isfinite(one.raster.values)) for one in maps] + ([(source, source.values > 0)] if source else []):

@@ -208,6 +208,12 @@ def read_box(run):
                float(entries["Mesh/Cell size"].split(",")[0]), vertical)
 
 
+def local_origin(entries):
+    """Map coordinates of the place 0, 0, 0 of a case, m."""
+    given = [float(word) for word in entries.get("Local origin", "").split(",") if word.strip()]
+    return np.array((given + 3 * [0.])[:3])
+
+
 def split_unit(column_name):
     """("Front 90 %", "m") of the column "Front 90 % (m)"; no unit: ""."""
     match = re.fullmatch(r"(.*?)\s*\(([^()]*)\)\s*", column_name)

@@ -12,12 +12,6 @@ from scree import expressions, results, variants
 from scree.results import Raster
 
 
-def origin_of_maps(entries, dim):
-    """Map coordinates of the place 0, 0 of a case, m."""
-    given = [float(word) for word in entries.get("Local origin", "0, 0").split(",")]
-    return np.array((given + [0., 0.])[:dim - 1])
-
-
 def ground(run, window):
     """Heights of the bed of a run in 3D within `window`, (x, x, y, y) in map coordinates; None without a bed. Throws OSError or ValueError."""
     prm = pathlib.Path(run) / "parameters.prm"
@@ -30,7 +24,7 @@ def ground(run, window):
             raise ValueError(f"the raster of the bed, {entries['Bed/Raster']}, is not there: the run folder or the raster has moved")
         return cut(results.read_raster(raster), window)
     if entries.get("Bed/Level set expression"):
-        return _of_expression(results.read_box(run), entries["Bed/Level set expression"], origin_of_maps(entries, 3), window)
+        return _of_expression(results.read_box(run), entries["Bed/Level set expression"], results.local_origin(entries), window)
     raise ValueError("the heights of the bed are drawn only if it is given by a raster or an expression")
 
 

@@ -73,9 +73,7 @@ def rigid_surfaces(run, places, time):
     """The bed and the obstacles of a run at `places` (arrays x, y, or x, y, z) and a time. Those that cannot be read are left out."""
     prm = pathlib.Path(run) / "parameters.prm"
     entries = variants.read_entries(prm)
-    origin = np.zeros(3)
-    written = [float(word) for word in entries.get("Local origin", "").split(",") if word.strip()]
-    origin[:len(written)] = written
+    origin = results.local_origin(entries)
     surfaces = []
     for key, kind in entries.items():
         subsection, _, name = key.rpartition("/")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The kinds of charts of a study.
 
-Each has `timed` (its runs are made one at a time), `keep(run)` (called for each new run), `complete` (adds columns) and `write`.
+Each has `timed` (its runs are made one at a time), `keep(run)` (called for each new run) and `write`.
 A chart is as wide as a page and shows at most five curves an axes, with their names beside them.
 """
 
@@ -36,15 +36,6 @@ def _finite(row, *names):
     return all(isinstance(row.get(name), (int, float)) and math.isfinite(row[name]) for name in names)
 
 
-def mark_pareto(rows):
-    """Adds the column "Pareto": no other run is at least as good in error and cost and better in one."""
-    error, cost = "error", "core-seconds"
-    for row in rows:
-        row["Pareto"] = _finite(row, error, cost) and not any(
-            other[error] <= row[error] and other[cost] <= row[cost] and (other[error], other[cost]) != (row[error], row[cost])
-            for other in rows if _finite(other, error, cost))
-
-
 def tick_axis(axis):
     """Several ticks with plain numbers on a logarithmic axis, however few decades it spans."""
     low, high = axis.get_view_interval()
@@ -71,9 +62,6 @@ class Curves:
     def keep(self, run):
         pass
 
-    def complete(self, rows):
-        pass
-
     def write(self, rows, target):
         figure = plt.figure(figsize=(WIDTH, self.height))
         self.draw(figure, rows)
@@ -87,9 +75,6 @@ class WorkPrecision(Curves):
     def __init__(self, methods, ylabel, annotate="h", unit=" m"):
         super().__init__(self._draw, 4.2, timed=True)
         self.methods, self.ylabel, self.annotate, self.unit = methods, ylabel, annotate, unit
-
-    def complete(self, rows):
-        mark_pareto(rows)
 
     def _draw(self, figure, rows):
         axes = figure.subplots()

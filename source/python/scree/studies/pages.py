@@ -5,6 +5,7 @@ doc/studies/intro has the text of each section, NAME.md, and that of the bounds.
 
 import math
 import re
+import textwrap
 from typing import NamedTuple
 
 from scree.studies import words
@@ -14,7 +15,7 @@ from scree.studies.measures import BOUNDS, map_table, share_of_defaults
 LINE = 120
 BOUNDS_TEXT = words.FOLDER / "bounds.md"
 SENTENCES = re.compile(r"(?<=[.!?])(?<!al\.)\s+(?=[A-Z0-9`*(\[\"]|p )")
-MARKUP = re.compile(r"([-+*>#|]|#+|\d+[.)])$")  # a word that would begin a list, a heading or a table at the start of a line
+MARKUP = re.compile(r" ([-+*>#|]|#+|\d+[.)])(?=\s|$)")  # a word that would begin a list, a heading or a table at the start of a line
 
 
 class Topic(NamedTuple):
@@ -42,14 +43,8 @@ TOPICS = {
 
 def filled(sentence, first="", indent=""):
     """The sentence on lines of at most LINE characters: `first` before the first of them, `indent` before the others."""
-    lines, line = [], []
-    for word in sentence.split():
-        if line and len(indent if lines else first) + len(" ".join([*line, word])) > LINE:
-            carried = [line.pop()] if MARKUP.match(word) else []
-            lines.append((indent if lines else first) + " ".join(line))
-            line = carried
-        line.append(word)
-    return [*lines, (indent if lines else first) + " ".join(line)]
+    kept = MARKUP.sub("\0\\1", sentence)
+    return [line.replace("\0", " ") for line in textwrap.wrap(kept, LINE, initial_indent=first, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)]
 
 
 def sentences(text, first="", indent=""):
