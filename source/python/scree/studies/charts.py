@@ -53,14 +53,25 @@ def legend_above(figure, axes, columns):
     figure.legend(*axes.get_legend_handles_labels(), loc="upper center", ncols=columns, frameon=False, fontsize=9)
 
 
-class Curves:
-    """draw(figure, rows) on an empty figure as wide as a page and `height` inches high; `timed` if times are compared."""
+class NoChart:
+    """Of a study whose table has all numbers; `timed` if times are compared."""
 
-    def __init__(self, draw, height=4., timed=False):
-        self.draw, self.height, self.timed = draw, height, timed
+    def __init__(self, timed=False):
+        self.timed = timed
 
     def keep(self, run):
         pass
+
+    def write(self, rows, target):
+        pass
+
+
+class Curves(NoChart):
+    """draw(figure, rows) on an empty figure as wide as a page and `height` inches high."""
+
+    def __init__(self, draw, height=4., timed=False):
+        super().__init__(timed)
+        self.draw, self.height = draw, height
 
     def write(self, rows, target):
         figure = plt.figure(figsize=(WIDTH, self.height))

@@ -9,7 +9,7 @@ import textwrap
 from typing import NamedTuple
 
 from scree.studies import words
-from scree.studies.charts import StabilityMap
+from scree.studies.charts import Curves, StabilityMap
 from scree.studies.measures import BOUNDS, map_table, share_of_defaults
 
 LINE = 120
@@ -116,7 +116,7 @@ def section_text(name, study, rows, claims):
     lines = [f"## {study.text.title}", ""]
     for text in results(study, rows, claims):
         lines += sentences(text, "- ", "  ")
-    lines += ["", f"![{study.text.title}]({name}.svg)", "", study.text.introduction]
+    lines += ["", *([f"![{study.text.title}]({name}.svg)", ""] if isinstance(study.chart, Curves) else []), study.text.introduction]
     found = study.table(rows) if study.table else map_table(rows) if isinstance(study.chart, StabilityMap) else None
     lines += ["", *table(found)] if found else []
     missed = misses(study, rows, claims)
