@@ -15,13 +15,11 @@ import re
 
 from scree import benchmarks
 from scree.command import ROOT
+from scree.studies import MASS, TIP, Limit, Lookup, Span, reference_rows
 from scree.studies import run as studies
 from scree.studies.cases import regimes, run_out, run_out_limits, saturated_run_out_limits, strength_reduction
-from scree.studies.limits import MASS, TIP, Limit
 from scree.studies.measures import stable_of
 from scree.studies.precision import DEFAULTS, LimitFit, at_finest, curve, ratio, ratios
-from scree.studies.rows import Lookup, Span
-from scree.studies.study import reference_rows
 from scree.studies.words import FOLDER, Filling
 from scree.variants import read_entries
 

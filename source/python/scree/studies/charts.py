@@ -46,13 +46,6 @@ def tick_axis(axis):
     axis.set_minor_locator(matplotlib.ticker.NullLocator())
 
 
-def legend_above(figure, axes, columns):
-    """One line of names above all axes of a figure."""
-    height = 0.32 / figure.get_figheight()
-    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - height))
-    figure.legend(*axes.get_legend_handles_labels(), loc="upper center", ncols=columns, frameon=False, fontsize=9)
-
-
 class NoChart:
     """Of a study whose table has all numbers; `timed` if times are compared."""
 

@@ -2,10 +2,7 @@
 """The text of its section: doc/studies/intro/air_gap.md."""
 import numpy as np
 
-from scree.studies.charts import StabilityMap
-from scree.studies.measures import classify, roughness
-from scree.studies.study import Study, Variant
-from scree.studies.words import filled
+from scree.studies import StabilityMap, Study, Variant, classify, filled, roughness
 
 CELL, HEIGHT = 0.05, 0.4  # m
 PAIRS = ["water on water", "soil on water", "water on soil", "soil on soil"]

@@ -4,10 +4,7 @@
 import numpy as np
 
 from scree.pictures.tables import name_lines
-from scree.studies.charts import RunCurves
-from scree.studies.measures import mean_depth
-from scree.studies.study import Study, axis, product, reference_rows
-from scree.studies.words import tabled
+from scree.studies import RunCurves, Study, axis, mean_depth, product, reference_rows, tabled
 
 BAR = 1.5e-3  # m
 WIDTH = 0.01  # m, over which the depth is taken

@@ -5,10 +5,9 @@ import math
 
 import numpy as np
 
-from scree.studies.charts import WorkPrecision
+from scree.studies import Study, WorkPrecision, transfer
 from scree.studies.precision import (DEFAULTS, at_finest, beside_defaults, costs, failed, methods, order, ratio, table,
                                      variants)
-from scree.studies.study import Study, transfer
 
 SPEED, MODULUS, AMPLITUDE = math.sqrt(10.), 1e4, 1e-5  # of the wave, m/s; Pa; m/s
 TIME = 4.25 / SPEED  # s

@@ -5,10 +5,8 @@ import math
 
 import numpy as np
 
+from scree.studies import Limit, NoChart, Study, Variant, volume_below
 from scree.studies.cases.run_out_limits import DIAMETER, REPOSE, TRIAXIAL, WITH, WITHOUT, WIDTH
-from scree.studies.charts import NoChart
-from scree.studies.limits import Limit, volume_below
-from scree.studies.study import Study, Variant
 
 SIZES = {1: (8, 12, 16), 2: (8, 12)}
 TREATMENTS = ((REPOSE, WITH), (TRIAXIAL, WITH), (TRIAXIAL, WITHOUT))

@@ -5,12 +5,9 @@ import math
 
 import numpy as np
 
-from scree.studies import precision
+from scree.studies import Study, WorkPrecision, lost_energy, precision
 from scree.studies.cases import dry_slope
-from scree.studies.charts import WorkPrecision
-from scree.studies.measures import lost_energy
 from scree.studies.precision import DEFAULTS, LimitFit, at_finest, beside_defaults, costs, curve, methods, ratios
-from scree.studies.study import Study
 
 STEP = 0.04  # s/m: longest step over cell size
 REFERENCE = 1 / 60  # m, cells of the reference

@@ -6,10 +6,7 @@ import math
 import numpy as np
 
 from scree import closed_forms
-from scree.studies.charts import RunCurves
-from scree.studies.measures import mean_depth
-from scree.studies.study import Study, axis, product
-from scree.studies.words import filled, tabled
+from scree.studies import RunCurves, Study, axis, filled, mean_depth, product, tabled
 
 LAYER, SLOPE, ORIGIN = 0.2, math.radians(20), np.array([5, 3.35])  # m, -, m
 TIMES = (0.4, 0.8, 1.2)  # s

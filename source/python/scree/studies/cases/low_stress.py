@@ -4,9 +4,7 @@ import math
 
 import numpy as np
 
-from scree.studies.charts import StabilityMap
-from scree.studies.measures import classify, mean_oscillation
-from scree.studies.study import Study, Variant
+from scree.studies import StabilityMap, Study, Variant, classify, mean_oscillation
 
 CASES = {("Nor-Sand", "dry"): "columns/column_loose", ("Mohr-Coulomb", "dry"): "columns/mohr_coulomb_collapse",
          ("Nor-Sand", "saturated"): "slopes/slope_saturated_loose",

@@ -5,9 +5,7 @@ import math
 import numpy as np
 
 from scree.pictures.tables import name_lines
-from scree.studies.charts import RunCurves
-from scree.studies.study import Study, axis, reference_rows
-from scree.studies.words import tabled
+from scree.studies import RunCurves, Study, axis, reference_rows, tabled
 
 WIDTH, GRAVITY = 1., 9.81  # a, m; m/s^2
 HEIGHT_ZONE = 0.1 * WIDTH

@@ -4,8 +4,7 @@
 import math
 import subprocess
 
-from scree.studies.charts import NoChart
-from scree.studies.study import Study, Variant, compiled, reference_rows
+from scree.studies import NoChart, Study, Variant, compiled, reference_rows
 
 NS = "ns per point and step"
 SCENES = {"elastic 2D": "elastic_2d", "elastic 3D": "elastic_3d", "Mohr-Coulomb 3D": "mohr_coulomb_column_3d",

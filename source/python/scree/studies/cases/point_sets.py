@@ -7,10 +7,7 @@ import numpy as np
 
 from scree import results
 from scree.pictures import fields, plane
-from scree.studies.charts import Pictures
-from scree.studies.rows import Span
-from scree.studies.study import Study, Variant, axis, product
-from scree.studies.words import tabled
+from scree.studies import Pictures, Span, Study, Variant, axis, product, tabled
 
 SOILS = {"dense": "slopes/slope_saturated_dense", "loose": "slopes/slope_saturated_loose",
          "Mohr-Coulomb": "slopes/slope_saturated_mohr_coulomb"}

@@ -5,9 +5,7 @@ import math
 import numpy as np
 
 from scree.closed_forms import oedometric_modulus
-from scree.studies.charts import Curves, tick_axis
-from scree.studies.rows import Span
-from scree.studies.study import Study, Variant, transfer
+from scree.studies import Curves, Span, Study, Variant, tick_axis, transfer
 
 GRAVITY, WATER, GRAINS, POROSITY = 9.81, 1000., 2650., 0.4
 POISSON, FRICTION, K0 = 0.3, 30., 0.5

@@ -6,11 +6,7 @@ import math
 import numpy as np
 
 from scree.pictures.tables import name_lines
-from scree.studies.charts import Curves
-from scree.studies.limits import Limit
-from scree.studies.measures import lost_energy
-from scree.studies.study import Study, Variant
-from scree.studies.words import filled
+from scree.studies import Curves, Limit, Study, Variant, filled, lost_energy
 
 FIXED, FRICTION, LOW_PIC = "fixed", "friction", "friction, PIC rate 1/s"
 TREATMENTS = {FIXED: {"Boundaries/Bottom": "fixed"}, FRICTION: {"Boundaries/Bottom": "friction 22.3"},

@@ -7,11 +7,8 @@ import re
 import numpy as np
 
 from scree.pictures.tables import name_lines
-from scree.studies.charts import Curves
-from scree.studies.limits import HEIGHT, MASS, TIP, TRANSFERS, Limit, apart, depth, front_of_depth, halving_of
-from scree.studies.measures import lost_energy
-from scree.studies.rows import Rows, Span
-from scree.studies.study import Study, Variant, reference_rows
+from scree.studies import (HEIGHT, MASS, TIP, TRANSFERS, Curves, Limit, Rows, Span, Study, Variant, apart, depth,
+                           front_of_depth, halving_of, lost_energy, reference_rows)
 
 GRAVITY = 9.81
 SIZES, SHORT_SIZES = (12, 16, 24, 32, 48), (12, 16, 24, 32)

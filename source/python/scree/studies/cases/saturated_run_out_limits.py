@@ -4,11 +4,8 @@
 import numpy as np
 
 from scree.pictures.tables import name_lines
-from scree.studies.charts import Curves
-from scree.studies.limits import HEIGHT, MASS, TIP, TRANSFERS, Limit, apart, depth, front_of_depth, halving_of
-from scree.studies.measures import lost_energy
-from scree.studies.rows import Rows
-from scree.studies.study import Study, Variant
+from scree.studies import (HEIGHT, MASS, TIP, TRANSFERS, Curves, Limit, Rows, Study, Variant, apart, depth,
+                           front_of_depth, halving_of, lost_energy)
 
 COLUMN, SLOPE = "column", "slope"
 FIXED, FRICTION = "fixed", "friction"

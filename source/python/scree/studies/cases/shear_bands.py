@@ -3,8 +3,7 @@
 
 import numpy as np
 
-from scree.studies.charts import NoChart
-from scree.studies.study import Study, Variant
+from scree.studies import NoChart, Study, Variant
 
 BIAXIAL, BANK = "biaxial test", "bank"
 LENGTHS = {BIAXIAL: 0.1, BANK: 0.5}  # m

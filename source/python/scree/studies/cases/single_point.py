@@ -5,9 +5,7 @@ import math
 
 import numpy as np
 
-from scree.studies import measures
-from scree.studies.charts import StabilityMap
-from scree.studies.study import Study, Variant, axis, product
+from scree.studies import StabilityMap, Study, Variant, axis, measures, product
 
 
 def point_sets(name):

@@ -8,9 +8,7 @@ import numpy as np
 from scree.closed_forms import slip_circle_factor
 from scree.pictures.tables import name_lines
 from scree.results import read_table
-from scree.studies.charts import Curves
-from scree.studies.study import Study, Variant
-from scree.studies.words import tabled
+from scree.studies import Curves, Study, Variant, tabled
 
 HEIGHT, WEIGHT = 10., 2000 * 9.81 * 10  # m, and gamma H in Pa
 BANK = "example 1, other entries"

@@ -4,9 +4,7 @@ import math
 
 import numpy as np
 
-from scree.studies.charts import StabilityMap
-from scree.studies.measures import classify
-from scree.studies.study import Study, axis, product
+from scree.studies import StabilityMap, Study, axis, classify, product
 
 CREST, FRICTION = 0.6, 30  # m, degrees
 MOVED, SOIL, WATER = "front moved, mm", "soil, mm/s", "water, mm/s"

@@ -6,9 +6,8 @@ import math
 import numpy as np
 
 from scree import closed_forms
-from scree.studies.charts import WorkPrecision
+from scree.studies import ROOT, Study, WorkPrecision, prm_files
 from scree.studies.precision import DEFAULTS, beside_defaults, costs, methods, order, ratios, table, variants
-from scree.studies.study import ROOT, Study, prm_files
 
 FACTORS = (0.1, 0.5, 1.)
 BASE = "prm/consolidation/terzaghi.prm"

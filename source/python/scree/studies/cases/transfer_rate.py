@@ -5,9 +5,7 @@ import math
 
 import numpy as np
 
-from scree.studies import measures
-from scree.studies.charts import Curves, legend_above, tick_axis
-from scree.studies.study import Study, Variant, transfer
+from scree.studies import Curves, Study, Variant, measures, tick_axis, transfer
 
 FLIP, TPIC, CHOSEN = "FLIP, 1/s", "TPIC", "AFLIP, 5"
 FACTORS = (2, 5, 10)
@@ -167,7 +165,9 @@ def draw(figure, rows):
         axes.tick_params(axis="x", labelsize=9, rotation=60)
     plots[0].set_yticks(range(len(places)), [f"{scene}, h = {h:.2g} m" for scene, h in places], fontsize=9)
     plots[0].invert_yaxis()
-    legend_above(figure, plots[0], 3)
+    height = 0.32 / figure.get_figheight()
+    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - height))
+    figure.legend(*plots[0].get_legend_handles_labels(), loc="upper center", ncols=3, frameon=False, fontsize=9)
 
 
 STUDY = Study(

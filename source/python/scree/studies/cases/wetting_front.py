@@ -6,9 +6,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from scree.closed_forms import green_ampt_time
-from scree.studies.charts import StabilityMap
-from scree.studies.measures import BOUNDS, classify, roughness
-from scree.studies.study import Study, axis, product
+from scree.studies import BOUNDS, StabilityMap, Study, axis, classify, product, roughness
 
 POND, DEPTH, TOP = 0.2, 0.3, 0.5  # m: the pond's height, the front at the end, the soil's surface
 POROSITY = 0.4
