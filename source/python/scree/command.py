@@ -19,6 +19,13 @@ def program(name):
     return str(beside) if os.access(beside, os.X_OK) else shutil.which(name)
 
 
+def needed(name):
+    """The path of a program; a ValueError if it is not there."""
+    if (found := program(name)) is None:
+        raise ValueError(f"no program {name} is there. Build it (sh doc/quickstart.sh), or add its folder to PATH")
+    return found
+
+
 class Command(argparse.ArgumentParser):
     """The arguments of a command. Each error is one line on standard error, with exit code 1."""
 

@@ -18,28 +18,11 @@ def bare_name(field):
 
 
 class Fields(dict):
-    """Arrays by the bare names of their fields, such as "pore_pressure"; "pore_pressure [Pa]", as in the file, finds the same array.
-
-    `units` has the units by bare names, "" where there is none.
-    """
+    """Arrays by the bare names of their fields, such as "pore_pressure" of "pore_pressure [Pa]". `units` has the units by these names, "" without one."""
 
     def __init__(self, arrays=()):
-        """`arrays`: by names with or without units."""
-        by_label = dict(arrays)
-        super().__init__({bare_name(label): values for label, values in by_label.items()})
-        self.units = {bare_name(label): label[len(bare_name(label)) + 2:-1] for label in by_label}
-
-    def __missing__(self, name):
-        bare = bare_name(name)
-        if bare == name:
-            raise KeyError(name)
-        return self[bare]
-
-    def __contains__(self, name):
-        return super().__contains__(bare_name(name))
-
-    def get(self, name, default=None):
-        return super().get(bare_name(name), default)
+        super().__init__({bare_name(label): values for label, values in dict(arrays).items()})
+        self.units = {bare_name(label): label[len(bare_name(label)) + 2:-1] for label in dict(arrays)}
 
 
 class Points(NamedTuple):

@@ -219,7 +219,7 @@ def _run_table(study, done):
     for number, row in zip(study.numbers, study.rows):
         verdict, found = done.verdicts[number], done.numbers.get(number, {})
         rows.append((number, *map(_short, row), verdict.word, _checks(verdict), *(f"{found[one]:.5g}" if one in found else "" for one in done.results)))
-    head = ("run", *(one.label for one in study.parameters), "verdict", "checks", *(one.name + (f" ({one.unit})" if one.unit != "-" else "") for one in done.results))
+    head = ("run", *(one.label for one in study.parameters), "verdict", "checks", *(one.label for one in done.results))
     return f'<div style="overflow-x: auto">{report.table(rows, head)}</div>'
 
 

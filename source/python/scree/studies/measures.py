@@ -66,7 +66,7 @@ def share_of_defaults(rows):
     standing = defaults.where(lambda row: row["state"] != "blow-up")
 
     def worst(name):
-        return max((row[name] for row in standing if math.isfinite(row.get(name, math.nan))), default=-math.inf)
+        return max(finite(standing, name), default=-math.inf)
 
     def told(name):
         return f"{name} up to {worst(name):{'.0f' if worst(name) > 100 else '.2g'}}, bound {BOUNDS[name]:g}"
@@ -84,6 +84,10 @@ def share_of_defaults(rows):
     return text + (f" Up to the limit time step, {stable_of(within)} are." if within.n < defaults.n else "")
 
 
+def finite(rows, name):
+    return [row[name] for row in rows if math.isfinite(row.get(name, math.nan))]
+
+
 def stable_of(rows):
     return f"{rows.where(state='stable').n} of {rows.n}"
 
@@ -95,7 +99,7 @@ def map_table(rows):
     groups = {name: chosen for name, chosen in groups.items() if chosen}
 
     def worst(chosen, name):
-        values = [row[name] for row in chosen if math.isfinite(row.get(name, math.nan))]
+        values = finite(chosen, name)
         return f"{(min if name == 'smallest J' else max)(values):.2g}" if values else "-"
     return [("quantity, worst of all cells", *groups, "bound"), ("stable cells", *map(stable_of, groups.values()), "all"),
             *((name, *(worst(chosen, name) for chosen in groups.values()), f"{BOUNDS[name]:g}")
