@@ -62,24 +62,19 @@ def verdict(rows, claim):
     shares = list(filter(math.isfinite, whole.values["pressure share (%)"]))
     fluid, stopped = pair(rows, "Mohr-Coulomb", True)
 
-    def each(value, form):
-        return " and ".join(f"{value(double, single):{form}} ({name})" for name, (double, single) in sand.items())
-
-    def percent(value, form):
-        return " and ".join(f"{100 * value(double, single):{form}} % ({name})"
-                            for name, (double, single) in sand.items())
+    def each(value):
+        return {name: value(*both) for name, both in sand.items()}
 
     return claims + [
         claim("pressure", max(shares) < 30, shares=Span.of(shares)),
         claim("stability", all(row["ended"] for both in sand.values() for row in both),
-              oscillation=each(lambda double, single: single[OSCILLATION] / double[OSCILLATION], ".1f")),
+              oscillation=each(lambda double, single: single[OSCILLATION] / double[OSCILLATION])),
         claim("front", all(single[FRONT] > double[FRONT] and single[WATER] > 0.01 and abs(double[WATER]) < 1e-9
                            for double, single in sand.values()),
-              farther=percent(lambda double, single: single[FRONT] / double[FRONT] - 1, ".1f"),
-              water=percent(lambda double, single: single[WATER], "+.1f")),
+              farther=each(lambda double, single: single[FRONT] / double[FRONT] - 1),
+              water=each(lambda double, single: single[WATER])),
         claim("dissipation", all(double["numerical dissipation (J)"] > 0 for double, _ in sand.values()),
-              double=percent(lambda double, single: taken(double), ".0f"),
-              single=percent(lambda double, single: taken(single), ".0f")),
+              double=each(lambda double, single: taken(double)), single=each(lambda double, single: taken(single))),
         claim("failure", fluid["ended"] and not stopped["ended"], worst=True, stopped=stopped,
               oscillation=stopped[OSCILLATION] / fluid[OSCILLATION])]
 

@@ -209,11 +209,10 @@ def verdict(rows, claim):
         claims.append(claim("submerged", min(wet) > ENOUGH, quick=False, least=min(wet), limits=span(under)))
     total = [(row, undrained(rows, row)) for row in rows.where(model="total stress")]
     if total:
-        off = {f"{row['cells']:g}": np.max(np.abs(values(row) / values(coupled) - 1)) for row, coupled in total}
+        off = {f"{row['cells']:g} cells": np.max(np.abs(values(row) / values(coupled) - 1)) for row, coupled in total}
         finest, coupled = total[-1]
-        claims.append(claim("total stress", max(off.values()) < 0.16, quick=False,
-                            off=" and ".join(f"{100 * part:.0f} %" for part in off.values()),
-                            cells=" and ".join(off), cost=finest["core-seconds"] / coupled["core-seconds"]))
+        claims.append(claim("total stress", max(off.values()) < 0.16, quick=False, off=off,
+                            cost=finest["core-seconds"] / coupled["core-seconds"]))
     return claims
 
 

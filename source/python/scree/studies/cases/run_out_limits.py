@@ -119,9 +119,8 @@ def verdict(rows, claim):
               claim("beads", max(map(abs, beads)) < 0.1, quick=False, off=beads)]
     for friction, of in curves.items():
         changes = {transfer: halving_of(curve, TIP, 24) for transfer, curve in of.items()}
-        told = ", ".join(f"{transfer} {100 * change:+.1f} %" for transfer, change in changes.items())
         claims.append(claim("halving", max(map(abs, changes.values())) < 0.03, quick=False, friction=friction,
-                            changes=told))
+                            changes=changes))
     for friction, of in curves.items():
         limits = {transfer: Limit(curve, TIP) for transfer, curve in of.items()}
         claims.append(claim("transfers", apart(limits) < 0.03, quick=False, friction=friction, limits=limits,

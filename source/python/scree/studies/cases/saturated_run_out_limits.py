@@ -63,12 +63,10 @@ def verdict(rows, claim):
             continue
         name = {"scene": scene.capitalize(), "base": base}
         changes = {transfer: halving_of(group, TIP, 20) for transfer, group in of.items()}
-        told = ", ".join(f"{transfer} {100 * change:+.1f} %" for transfer, change in changes.items())
-        claims.append(claim("halving", abs(changes["TPIC"]) < 0.03, quick=False, changes=told, **name))
+        claims.append(claim("halving", abs(changes["TPIC"]) < 0.03, quick=False, changes=changes, **name))
         for quantity, percent in ((TIP, 99), (MASS, 90)):
             limits = {transfer: Limit(group, quantity) for transfer, group in of.items()}
-            told = ", ".join(f"{limit:.2f} m ({transfer})" for transfer, limit in limits.items())
-            claims.append(claim("transfers", apart(limits) < 0.03, quick=False, percent=percent, limits=told,
+            claims.append(claim("transfers", apart(limits) < 0.03, quick=False, percent=percent, limits=limits,
                                 apart=apart(limits), **name))
     last = max(rows, key=lambda row: row[LAST] / BOXES[row["scene"]][0])
     farthest = last[LAST] / BOXES[last["scene"]][0]
