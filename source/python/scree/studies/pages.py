@@ -88,14 +88,6 @@ def n_held(claims):
     return f"{sum(claim.holds for claim in claims)} of {len(claims)}"
 
 
-def comparison(studies):
-    """The lines of the table of experiments of these studies."""
-    lines = [line for study, rows, _ in studies for line in (study.compared(rows) if study.compared else ())]
-    return table([("quantity", "unit", "measured", "computed", "deviation"),
-                  *((quantity, unit, f"{measured:.3g}", f"{computed:.3g}", f"{100 * (computed / measured - 1):+.0f} %")
-                    for quantity, unit, measured, computed in lines)]) if lines else []
-
-
 def slug(title):
     """The anchor of a heading, as GitHub and MyST name it."""
     return re.sub(r"\s", "-", re.sub(r"[^\w\s-]", "", title.lower()))
@@ -137,8 +129,6 @@ def page_text(topic, studies):
              *table([("study", "question", "what to do", "claims that hold"),
                      *((f"[{study.text.title}](#{slug(study.text.title)})", study.text.question, study.text.advice, n_held(claims))
                        for study, _, claims in (studies[name] for name in names))])]
-    compared = comparison(studies[name] for name in names)
-    lines += ["", *compared] if compared else []
     return "\n".join([*lines, "", *("\n".join(section_text(name, *studies[name]) for name in names).splitlines())]) + "\n"
 
 
@@ -162,7 +152,6 @@ def index_text(studies):
              "The pages have charts, tables and conditions.",
              "`build/scree-study NAME` repeats one; `build/scree-study all --page` writes all pages again from their tables.",
              "What follows for a case: [choices](../../choosing.md), with the number of points; [defaults](../defaults.md).", "",
-             *table([("study", "what to do", "claims that hold"), *((link(name), studies[name][0].text.advice, n_held(studies[name][2])) for name in names)]), "",
-             *comparison(studies.values()), *section("Claims that do not hold", FAILED),
-             *section("Maps with default cells that are not stable", UNSTABLE)]
+             *table([("study", "what to do", "claims that hold"), *((link(name), studies[name][0].text.advice, n_held(studies[name][2])) for name in names)]),
+             *section("Claims that do not hold", FAILED), *section("Maps with default cells that are not stable", UNSTABLE)]
     return "\n".join([*lines, "", "## Bounds of the stability maps", "", BOUNDS_TEXT.read_text(encoding="utf-8").rstrip().format_map(BOUNDS)]) + "\n"

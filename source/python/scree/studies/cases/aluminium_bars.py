@@ -76,11 +76,6 @@ table = tabled({"base": "{[base]}", "h (mm)": "{[h]:g mm}", "front (m)": "{[fron
                 "failure line, RMS (mm)": "{[failure line, rms (m)]:.1f mm}"}, by="base")
 
 
-def compared(rows):
-    return [(f"aluminium bars, front, base {row['base']}, h = {1e3 * row['h']:g} mm", "m", LAST, row[FRONT])
-            for row in rows.where(h=rows.smallest["h"])]
-
-
 def curves(run):
     """Surface and failure line of a run, mm."""
     x, places, points = np.arange(0.0025, 0.56, 0.0025), reference("failure")[:, 0], run.points()
