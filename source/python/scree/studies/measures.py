@@ -79,9 +79,7 @@ def share_of_defaults(rows):
         names = [name for columns in DECIDING.values() for name in columns]
         others = ["nearest to its bound: " + told(max(names, key=lambda name: worst(name) / BOUNDS[name]))]
     listed = ", ".join(others)
-    within = defaults.where(lambda row: row.get("step/limit", 1.) <= 1)
-    text = f"{stable_of(defaults)} default cells are stable. {listed[0].upper()}{listed[1:]}."
-    return text + (f" Up to the limit time step, {stable_of(within)} are." if within.n < defaults.n else "")
+    return f"{stable_of(defaults)} default cells are stable. {listed[0].upper()}{listed[1:]}."
 
 
 def finite(rows, name):
