@@ -26,8 +26,6 @@ class Limit:
         first, second = fit(h, values, 1.), fit(h, values, 2.)
         self.value = (first[0] + second[0]) / 2
         self.uncertainty = abs(first[0] - second[0]) / 2 + max(first[2], second[2])
-        orders = np.arange(0.5, 3.01, 0.05)
-        self.order = orders[np.argmin([fit(h, values, order)[2] for order in orders])]
         self.h, self.values = h, values
         self.last_change = values[-1] / values[-2] - 1
         self.missing = 1 - values[0] / self.value

@@ -62,17 +62,6 @@ def curves(rows):
     return rows.grouped("scene", "soil", "treatment")
 
 
-def fronts(limit):
-    return filled("{:.2f}", list(limit.values))
-
-
-def course(limit):
-    """The fronts of all sizes and what follows from them."""
-    order = f"order {limit.order:.1f}" if len(limit.h) > 2 and 0.51 < limit.order < 2.99 else "order not determined"
-    return filled("{} m with cells of {:.3g} m. Last change {:+.1f %}, {}, {:.2f} m at h = 0", fronts(limit),
-                  list(limit.h), limit.last_change, order, limit)
-
-
 def verdict(rows, claim):
     groups = curves(rows)
     limits = {key: Limit(group, FRONT) for key, group in groups.items()}
@@ -81,21 +70,15 @@ def verdict(rows, claim):
     worst, worst_tip = (max(abs(limit.last_change) for limit in of.values()) for of in (best, tips))
     spread, spread_tip = (max(limit.spread for limit in of.values()) for of in (best, tips))
 
-    def values(key):
-        scene, soil, treatment = key
-        return {"scene": f"{scene.capitalize()}, {soil}, {treatment}", "course": course(limits[key]),
-                "limit": limits[key]}
-
     claim = claim.shared(worst_front=worst, worst_tip=worst_tip, spread=spread, spread_tip=spread_tip)
     claims = [claim("front", worst < 0.02, quick=False)]
-    claims += [claim("recommended", abs(limit.last_change) < 0.02, quick=False, tabled=True, tip=tips[key],
-                     tips=fronts(tips[key]), **values(key))
-               for key, limit in best.items()]
+    claims += [claim("recommended", abs(limit.last_change) < 0.02, quick=False, tabled=True, limit=limit,
+                     scene=", ".join(key)) for key, limit in best.items()]
     for (scene, soil, treatment), limit in limits.items():
         if treatment == FIXED:
             other = limits[scene, soil, RECOMMENDED[scene]]
-            claims.append(claim("fixed", limit.missing > 1.5 * other.missing, tabled=True, other=other,
-                                **values((scene, soil, treatment))))
+            claims.append(claim("fixed", limit.missing > 1.5 * other.missing, tabled=True, limit=limit, other=other,
+                                scene=f"{scene}, {soil}"))
     dry, wet = (max((abs(tip.last_change)
                      for (scene, _, _), tip in tips.items() if (scene in (COLUMN, SLOPE)) == is_dry), default=math.nan)
                 for is_dry in (True, False))
@@ -109,8 +92,7 @@ def table(rows):
     for (scene, soil, treatment), group in sorted(groups.items(), key=lambda item: item[0][2] == FIXED):
         limit, tip = Limit(group, FRONT), Limit(group, TIP)
         lines.append((f"{scene}, {soil}", "fixed" if treatment == FIXED else "friction", f"{limit.h[-1]:.3g}",
-                      fronts(limit),
-                      f"{100 * limit.last_change:+.1f} %", f"{limit:.2f}", f"{100 * tip.last_change:+.1f} %"))
+                      filled("{:.2f}", list(limit.values)), f"{100 * limit.last_change:+.1f} %", f"{limit:.2f}", f"{100 * tip.last_change:+.1f} %"))
     return lines
 
 

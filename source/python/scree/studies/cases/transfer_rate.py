@@ -87,32 +87,22 @@ def measure(run):
             "p oscillation": mean("p oscillation (-)"), "stress oscillation": mean("Stress oscillation (-)")}
 
 
-def ratios(rows, transfer, others):
-    """Of each measure to the smallest one of the transfers `others(scene)`: {(scene, h, measure): ratio}."""
-    table = {(row["scene"], round(row["h"], 4), row["transfer"]): row for row in rows}
-    found = {}
-    for scene, h in dict.fromkeys(place[:2] for place in table):
-        if any((scene, h, name) not in table for name in (transfer, FLIP, TPIC)):
-            continue
-        for measure, least in MEASURES.items():
-            value, *compared = (max(abs(table[scene, h, name][measure]), least) for name in (transfer, *others(scene)))
-            if not math.isnan(table[scene, h, transfer][measure]):
-                found[scene, h, measure] = value / min(compared)
-    return found
-
-
 def before(scene):
     """What the cases travel with."""
     return (FLIP,) if scene.startswith(("dry", COLUMN)) else (TPIC,)
 
 
 def cost(rows, transfer, others):
-    """The worst ratio, and where it comes from."""
-    found = ratios(rows, transfer, others)
-    if not found:
-        return math.nan, "-"
-    place = max(found, key=found.get)
-    return found[place], f"{place[2]}, {place[0]}, h = {place[1]:.2g} m"
+    """The worst ratio of a measure to the smallest one of the transfers `others(scene)`, and where it comes from."""
+    found = {}
+    for (scene, h), group in rows.grouped("scene", "h").items():
+        of = {row["transfer"]: row for row in group}
+        for measure, least in MEASURES.items() if {transfer, FLIP, TPIC} <= of.keys() else ():
+            value, *compared = (max(abs(of[name][measure]), least) for name in (transfer, *others(scene)))
+            if not math.isnan(of[transfer][measure]):
+                found[f"{measure}, {scene}, h = {h:.2g} m"] = value / min(compared)
+    place = max(found, key=found.get, default="-")
+    return found.get(place, math.nan), place
 
 
 def penalties(rows):
