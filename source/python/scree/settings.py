@@ -54,6 +54,14 @@ def nearest(name, names):
     return f'. Did you mean "{close[0]}"?' if close else f". Write one of: {', '.join(names)}"
 
 
+def path(file, key, value, table=None):
+    """A file that is there; its path counts from that of the file which names it."""
+    found = file.parent / str(value)
+    if not found.is_file():
+        raise fault(file, key, value, f"there is no file {found}. Its path counts from {file.name}", table)
+    return found
+
+
 def choice(file, given, key, choices, table=None):
     """One of the choices; the first without the entry."""
     value = given.get(key, choices[0])

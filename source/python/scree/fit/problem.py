@@ -135,10 +135,7 @@ def _test(file, given, name, own, weights, step):
 def _file(file, key, value, table):
     if value is None:
         raise ValueError(f'{file}: [{table}]: entry "{key}" is missing. Its path counts from {file.name}')
-    path = file.parent / str(value)
-    if not path.is_file():
-        raise settings.fault(file, key, value, f"there is no file {path}. Its path counts from {file.name}", table)
-    return path
+    return settings.path(file, key, value, table)
 
 
 def _columns(file, table, data, path, own, strain, weights):

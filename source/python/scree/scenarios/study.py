@@ -63,9 +63,7 @@ def read(file):
     given = settings.read(file, KEYS, TABLES)
     if "case" not in given:
         raise ValueError(f'{file}: the base case is missing. Write for instance case = "slope.prm"; its path counts from this file')
-    case = file.parent / str(given["case"])
-    if not case.is_file():
-        raise settings.fault(file, "case", given["case"], f"there is no file {case}. Its path counts from {file.name}")
+    case = settings.path(file, "case", given["case"])
     base = variants.read_entries(case)
     fixed = {key: settings.text(value) for key, value in given.get("set", {}).items()}
     parameters = [_parameter(file, table, entry, value) for table in ("parameters", "factors") for entry, value in given.get(table, {}).items()]
