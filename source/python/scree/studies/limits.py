@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the sizes of cells of one curve tell about h = 0, and lengths of deposits."""
 
+import math
+
 import numpy as np
 
 from scree.studies.study import transfer
@@ -8,6 +10,12 @@ from scree.studies.study import transfer
 TRANSFERS = {"FLIP": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 1}, "AFLIP": transfer("AFLIP"),
              "TPIC": transfer("TPIC")}
 TIP, MASS, HEIGHT = "front 99 %", "front 90 %", "height"
+
+
+def whole_cells(h, lengths):
+    """Entries of cells of size h and of a box of whole cells that has these lengths, m."""
+    corner = ", ".join(f"{math.ceil(round(length / h, 6)) * h:.12g}" for length in lengths)
+    return {"Mesh/Cell size": f"{h:.12g}", "Mesh/Upper corner": corner}
 
 
 def fit(h, values, order):

@@ -44,7 +44,8 @@ TOPICS = {
 def filled(sentence, first="", indent=""):
     """The sentence on lines of at most LINE characters: `first` before the first of them, `indent` before the others."""
     kept = MARKUP.sub("\0\\1", sentence)
-    return [line.replace("\0", " ") for line in textwrap.wrap(kept, LINE, initial_indent=first, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)]
+    lines = textwrap.wrap(kept, LINE, initial_indent=first, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+    return [line.replace("\0", " ") for line in lines]
 
 
 def sentences(text, first="", indent=""):

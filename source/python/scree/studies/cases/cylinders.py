@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from scree.studies import Limit, NoChart, Study, Variant, volume_below
+from scree.studies import Limit, NoChart, Study, Variant, volume_below, whole_cells
 from scree.studies.cases.run_out_limits import DIAMETER, REPOSE, TRIAXIAL, WITH, WITHOUT, WIDTH
 
 SIZES = {1: (8, 12, 16), 2: (8, 12)}
@@ -19,11 +19,9 @@ def measured(aspect):
 
 def variant(aspect, cells, kind, friction):
     reach, height = 1 + 1.5 * measured(aspect), aspect + 0.25
-    side = math.ceil(reach * cells) / cells
     time = 8 * math.sqrt(aspect / 9.81)
     return Variant({"a": float(aspect), "cells": cells, "angle": kind, "friction": friction}, {
-        "Mesh/Upper corner": f"{side:.12g}, {side:.12g}, {math.ceil(height * cells) / cells:.12g}",
-        "Mesh/Cell size": f"{1 / cells:.12g}",
+        **whole_cells(1 / cells, (reach, reach, height)),
         "Soil/Region": f"x^2 + y^2 < 1 && z < {aspect}", "Soil/Points per cell": 3,
         "Soil/Mohr-Coulomb/Young's modulus": f"{1e6 * aspect:g}",
         "Soil/Mohr-Coulomb/Friction angle": 31, "Soil/Mohr-Coulomb/Friction angle kind": kind, "Transfer/PIC rate": 1,

@@ -22,7 +22,8 @@ def measure(run):
     mass = -momentum[0] / speed_at_start
     impulse = 1 + np.interp(later, run.statistics("Time (s)"), momentum) / (mass * speed_at_touch)
     return {**classify(run, {"oscillation of p": rough}), "impulse": impulse,
-            "peak p, kPa": 1e-3 * max(run.statistics("Largest p (Pa)")), "volume error": max(run.statistics("Volume error (-)"))}
+            "peak p, kPa": 1e-3 * max(run.statistics("Largest p (Pa)")),
+            "volume error": max(run.statistics("Volume error (-)"))}
 
 
 def pairs(rows, quantity):

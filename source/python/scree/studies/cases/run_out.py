@@ -6,7 +6,7 @@ import math
 import numpy as np
 
 from scree.pictures.tables import name_lines
-from scree.studies import Curves, Limit, Study, Variant, filled, lost_energy
+from scree.studies import Curves, Limit, Study, Variant, filled, lost_energy, whole_cells
 
 FIXED, FRICTION, LOW_PIC = "fixed", "friction", "friction, PIC rate 1/s"
 TREATMENTS = {FIXED: {"Boundaries/Bottom": "fixed"}, FRICTION: {"Boundaries/Bottom": "friction 22.3"},
@@ -44,10 +44,8 @@ def measure(run):
 
 def variant(scene, soil, treatment, cells_per_metre):
     points = 3 if scene == COLUMN or (scene, soil, treatment) == (SLOPE, "dense", LOW_PIC) else 2
-    box = ", ".join(f"{math.ceil(round(length * cells_per_metre, 6)) / cells_per_metre:.12g}"
-                    for length in BOXES[scene])
     end = TIMES[scene][soil]
-    entries = {"Mesh/Cell size": 1 / cells_per_metre, "Mesh/Upper corner": box, **TREATMENTS[treatment],
+    entries = {**whole_cells(1 / cells_per_metre, BOXES[scene]), **TREATMENTS[treatment],
                "End time": end, "Output/Interval": end if scene in (COLUMN, SLOPE) else 1., "Output/Graphics": "points",
                "Soil/Points per cell": points}
     if scene in (SATURATED, PERMEABLE):
@@ -92,7 +90,8 @@ def table(rows):
     for (scene, soil, treatment), group in sorted(groups.items(), key=lambda item: item[0][2] == FIXED):
         limit, tip = Limit(group, FRONT), Limit(group, TIP)
         lines.append((f"{scene}, {soil}", "fixed" if treatment == FIXED else "friction", f"{limit.h[-1]:.3g}",
-                      filled("{:.2f}", list(limit.values)), f"{100 * limit.last_change:+.1f} %", f"{limit:.2f}", f"{100 * tip.last_change:+.1f} %"))
+                      filled("{:.2f}", list(limit.values)), f"{100 * limit.last_change:+.1f} %", f"{limit:.2f}",
+                      f"{100 * tip.last_change:+.1f} %"))
     return lines
 
 

@@ -5,7 +5,7 @@ import numpy as np
 
 from scree.pictures.tables import name_lines
 from scree.studies import (HEIGHT, MASS, TIP, TRANSFERS, Curves, Limit, Rows, Study, Variant, apart, depth,
-                           front_of_depth, halving_of, lost_energy)
+                           front_of_depth, halving_of, lost_energy, whole_cells)
 
 COLUMN, SLOPE = "column", "slope"
 FIXED, FRICTION = "fixed", "friction"
@@ -18,10 +18,8 @@ FRONT, LAST = "front 0.02 H", "last point (m)"
 
 
 def variant(scene, base, transfer, cells):
-    size = HEIGHTS[scene] / cells
-    corner = ", ".join(f"{np.ceil(round(length / size, 6)) * size:.12g}" for length in BOXES[scene])
     return Variant({"scene": scene, "base": base, "transfer": transfer, "cells": cells},
-                   {**TRANSFERS[transfer], "Mesh/Cell size": f"{size:.12g}", "Mesh/Upper corner": corner,
+                   {**TRANSFERS[transfer], **whole_cells(HEIGHTS[scene] / cells, BOXES[scene]),
                     "Boundaries/Bottom": BASES[scene, base],
                     "Soil/Points per cell": 3, "Water/Points per cell": 3, "Output/Graphics": "points",
                     "Output/Interval": 0.5, "End time": 4 if scene == COLUMN else 5}, FILES[scene])
