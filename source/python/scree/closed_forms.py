@@ -195,9 +195,9 @@ def consolidate(mud, times, n_cells=200):
 # At rest and in steady flow -------------------------------------------------------------------------------------------
 
 
-def hydrostatic_pressure(height, surface, density=1000, gravity=GRAVITY):
+def hydrostatic_pressure(height, surface, density=1000):
     """rho g (surface - y) below the surface, 0 above, Pa; heights in m."""
-    return density * gravity * np.maximum(surface - np.asarray(height, dtype=float), 0)
+    return density * GRAVITY * np.maximum(surface - np.asarray(height, dtype=float), 0)
 
 
 def ergun_velocity(gravity, diameter, porosity, viscosity, density=1000):

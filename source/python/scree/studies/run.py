@@ -66,7 +66,7 @@ def make_run(study, variant, folder, arguments):
     launcher = ["mpirun", "-np", str(variant.ranks)] if variant.ranks > 1 else []
     if variant.ranks > (os.cpu_count() or 1):
         launcher += ["--oversubscribe", "--mca", "mpi_yield_when_idle", "1"]
-    command = ["timeout", f"{arguments.time_limit:g}", *launcher, arguments.program, *study.options, prm]
+    command = ["timeout", "7200", *launcher, arguments.program, *study.options, prm]
     # Runs of Open MPI side by side share folders, which the last one to end removes under one that begins: each has its own.
     with open(screen, "w", encoding="utf-8") as output, tempfile.TemporaryDirectory(prefix="scree_", ignore_cleanup_errors=True) as temporary:
         environment["TMPDIR"] = temporary
@@ -222,5 +222,4 @@ def main():
     parser.add_argument("--program", type=pathlib.Path, default=program("scree"), help="default: scree of the build, or of the PATH")
     parser.add_argument("--results", type=pathlib.Path, default=ROOT / "results" / "studies", help="folder of the runs; default results/studies")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time where times are not compared; default %(default)d")
-    parser.add_argument("--time-limit", type=float, default=7200., help="longest time of a run, s; default %(default)g")
     parser.run(run_studies)
