@@ -63,7 +63,7 @@ def fields_in_vtk(results):
         names = " ".join(found[label].GetComponentName(i) or "" for i in range(n)) if n > 1 else ""
         check(names == components, f"{label}: components {names}")
     arrays = read_points(results).arrays
-    check(arrays.units["stress"] == "Pa" and np.array_equal(arrays["stress"], arrays["stress [Pa]"]), "names with and without unit")
+    check(arrays.units["stress"] == "Pa", "unit of a field")
 
 
 def compare(first, second, tolerance):

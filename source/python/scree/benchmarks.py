@@ -7,23 +7,23 @@ Writes the tables into doc/verification/benchmarks.md, between the lines `<!-- r
 doc/verification/benchmarks.svg, and the pictures of doc/validation.md and of the page of wet experiments, doc/verification/agreement_*.svg.
 """
 
-import csv
 import re
 
 from scree.command import ROOT
+from scree.results import read_rows
 from scree.studies import charts
 from scree.studies import run as studies
 from scree.studies.cases import strength_reduction
+from scree.studies.study import reference_rows
 
 FOLDER = ROOT / "doc" / "verification"
 COLUMNS = ("quantity", "reference", "computed", "deviation (%)", "run")
 BLOCK = re.compile(r"(<!-- rows of (\S+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 
-def read(path=FOLDER / "benchmarks.csv"):
+def read():
     """The rows, each a dictionary by the names of the columns."""
-    with open(path, encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+    return read_rows(FOLDER / "benchmarks.csv")
 
 
 def run(command):
@@ -126,12 +126,10 @@ def draw_slopes_under_water(target):
 
 def draw_submerged_columns(target):
     """Fronts of loose and dense submerged columns over time: measured ones as points, computed ones as lines."""
-    with open(FOLDER / "submerged_columns.csv", encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = read_rows(FOLDER / "submerged_columns.csv")
     figure, both = charts.plt.subplots(1, 2, figsize=(charts.WIDTH, 3.2), sharey=True)
     for axes, packing in zip(both, ("loose", "dense")):
-        with open(ROOT / "doc" / "studies" / "reference" / f"rondon_{packing}_front.csv", encoding="utf-8", newline="") as file:
-            measured = list(csv.DictReader(file))
+        measured = reference_rows(f"rondon_{packing}_front")
         axes.scatter([float(row["time_s"]) for row in measured], [float(row["front_cm"]) for row in measured], color="0.3", s=20, zorder=3, label="experiment")
         of_packing = [row for row in rows if row["column"] == packing]
         for run_name in dict.fromkeys(row["run"] for row in of_packing):

@@ -15,13 +15,11 @@ import re
 
 from scree import benchmarks
 from scree.command import ROOT
+from scree.studies import MASS, TIP, Limit, Lookup, Span, reference_rows
 from scree.studies import run as studies
-from scree.studies.cases import regimes, run_out, run_out_limits, saturated_run_out_limits, strength_reduction
-from scree.studies.limits import MASS, TIP, Limit
+from scree.studies.cases import impact, regimes, run_out, run_out_limits, saturated_run_out_limits, strength_reduction
 from scree.studies.measures import stable_of
 from scree.studies.precision import DEFAULTS, LimitFit, at_finest, curve, ratio, ratios
-from scree.studies.rows import Lookup, Span
-from scree.studies.study import reference_rows
 from scree.studies.words import FOLDER, Filling
 from scree.variants import read_entries
 
@@ -229,12 +227,6 @@ def costs():
             "waves": minutes("bar", 32, method="TPIC", h=0.03125)}
 
 
-def impacts(quantity):
-    """A quantity of each impact with h = 0.1 and 0.05 m."""
-    fine = {(row["k"], row["v"]): row[quantity] for row in rows("impact").where(h=0.05)}
-    return [(row[quantity], fine[row["k"], row["v"]]) for row in rows("impact").where(h=0.1)]
-
-
 def single_values():
     """Deviations of scenes with one size of cells, and what stands beside them."""
     wet = [group for (scene, _, _), group in run_out.curves(rows("run_out")).items()
@@ -255,8 +247,8 @@ def single_values():
         # The column is 0.2 m wide, the measured front at 0.442 m.
         "bars": Span.of((front - 0.2) / (measured - 0.2) - 1 for front in bars.values["front (m)"]),
         "heap": [quoted("validation.md", heap, number) for number in ("-5.5", "+18.5 %")],
-        "impulse": max(abs(fine - coarse) for coarse, fine in impacts("impulse")),
-        "peaks": Span.of(fine / coarse for coarse, fine in impacts("peak p, kPa")),
+        "impulse": max(abs(fine - coarse) for coarse, fine in impact.pairs(rows("impact"), "impulse")),
+        "peaks": Span.of(fine / coarse for coarse, fine in impact.pairs(rows("impact"), "peak p, kPa")),
         "terrain": quoted("tutorials/own_terrain.md", mountain, "33 %"),
         "then": one("dry_slope", method=DEFAULTS, h=0.066667)["ns per point and step"],
         "now": one("advice", case="slope_dense")["ns per point and step"]}

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Exact and reference solutions that the cases with water are compared with. SI units, pressures compression positive.
 
-- consolidation at small strain: Terzaghi 1943; the same with the inertia of soil and water
+- consolidation at small strain: Terzaghi 1943
 - consolidation at large strain of soil that is elastic in logarithmic strain: exact end state, course in time by
   finite differences
 - infiltration of a pond with suction (Green & Ampt 1911)
@@ -62,42 +62,6 @@ def terzaghi_degree(time_factor, n_terms=4000):
     """Degree of consolidation U = 1 - sum over odd m of 8/(m pi)^2 exp(-m^2 pi^2 T_v/4); settlement = U q H/E_oed."""
     m = _odd(n_terms)
     return 1 - np.sum(8 / (m * math.pi)**2 * np.exp(-(m * math.pi)**2 * time_factor / 4))
-
-
-def self_weight_pressure(depth, time_factor, n_terms=4000):
-    """Excess pressure over (buoyant weight of the column) when the weight is the load: p = gamma' z at t = 0, H = 1."""
-    m = _odd(n_terms)
-    amplitude = 8 / (m * math.pi)**2 * np.sin(m * math.pi / 2) * np.exp(-(m * math.pi)**2 * time_factor / 4)
-    return np.sin(np.multiply.outer(np.asarray(depth, dtype=float), m * math.pi / 2)) @ amplitude
-
-
-def consolidation_with_inertia(column, grain_density, porosity, depth, time, n_terms=400):
-    """(p/q at the depths in m, U) of a Terzaghi column whose soil and water have inertia; incompressible constituents.
-
-    In one dimension over an impermeable base (1-n) v_s + n v_w = 0. Eliminating v_w and p from the two momentum balances
-    leaves the telegraph equation of the soil's displacement u,
-        rho* u_tt + (rho_w g/k) u_t = E_oed u_zz,    rho* = (1-n) rho_s + rho_w (1-n)^2/n,
-        p_z = rho_w (1-n)/n u_tt + (rho_w g/k) u_t,
-    with -E_oed u_z = q at z = 0 and u = 0 at z = H: a sum over cos(m pi z/(2H)), m odd, each with two decay rates. It
-    tells how far inertia, which Terzaghi leaves out, is from the code's answer: of order c_v rho* k/(H^2 rho_w g).
-    """
-    m = _odd(n_terms)
-    wave_number = m * math.pi / (2 * column.height)
-    ratio = (1 - porosity) / porosity
-    mass = (1 - porosity) * grain_density + column.water_density * (1 - porosity) * ratio
-    drag = column.water_density * column.gravity / column.conductivity
-    damping, stiffness = drag / mass, column.modulus / mass * wave_number**2
-    root = np.sqrt(damping**2 / 4 - stiffness.astype(complex))
-    # The slow rate without cancellation, from the product of both.
-    fast = -damping / 2 - root
-    slow = stiffness / fast
-    # f(0) = 1, f'(0) = 0
-    slow_part, fast_part = fast / (fast - slow), -slow / (fast - slow)
-    decay = [np.real(slow_part * slow**n * np.exp(slow * time) + fast_part * fast**n * np.exp(fast * time)) for n in range(3)]
-    part = 8 / (m * math.pi)**2
-    per_mode = -part * column.height / column.modulus / wave_number * (column.water_density * ratio * decay[2] + drag * decay[1])
-    pressure = np.sin(np.multiply.outer(np.asarray(depth, dtype=float), wave_number)) @ per_mode
-    return pressure, 1 - np.sum(part * decay[0])
 
 
 # Large strain ---------------------------------------------------------------------------------------------------------
@@ -231,20 +195,14 @@ def consolidate(mud, times, n_cells=200):
 # At rest and in steady flow -------------------------------------------------------------------------------------------
 
 
-def hydrostatic_pressure(height, surface, density=1000, gravity=GRAVITY):
+def hydrostatic_pressure(height, surface, density=1000):
     """rho g (surface - y) below the surface, 0 above, Pa; heights in m."""
-    return density * gravity * np.maximum(surface - np.asarray(height, dtype=float), 0)
-
-
-def ergun_gradient(velocity, diameter, porosity, viscosity, density=1000):
-    """Gradient of the pressure, Pa/m, of the superficial velocity U, m/s, through a bed of grains of diameter d (Ergun 1952):
-    150 mu (1-n)^2/(n^3 d^2) U + 1.75 rho (1-n)/(n^3 d) U^2."""
-    slow = 150 * viscosity * (1 - porosity)**2 / (porosity**3 * diameter**2)
-    return (slow + 1.75 * density * (1 - porosity) / (porosity**3 * diameter) * velocity) * velocity
+    return density * GRAVITY * np.maximum(surface - np.asarray(height, dtype=float), 0)
 
 
 def ergun_velocity(gravity, diameter, porosity, viscosity, density=1000):
-    """Superficial velocity, m/s, at the gradient rho g of the water's own weight."""
+    """Superficial velocity U, m/s, through a bed of grains of diameter d at the gradient rho g of the water's own weight (Ergun 1952):
+    rho g = 150 mu (1-n)^2/(n^3 d^2) U + 1.75 rho (1-n)/(n^3 d) U^2."""
     slow = 150 * viscosity * (1 - porosity)**2 / (porosity**3 * diameter**2)
     fast = 1.75 * density * (1 - porosity) / (porosity**3 * diameter)
     return 2 * density * gravity / (slow + math.sqrt(slow**2 + 4 * fast * density * gravity))
@@ -268,11 +226,6 @@ def dupuit_discharge(conductivity, upstream, downstream, length):
     since phi = y on y = f(x); the brackets are h_1^2/2 and h_2^2/2, with phi = y on the seepage face.
     """
     return conductivity * (upstream**2 - downstream**2) / (2 * length)
-
-
-def dupuit_surface(x, upstream, downstream, length):
-    """Dupuit's parabola sqrt(h_1^2 - (h_1^2 - h_2^2) x/L), m: near the free surface, but without its seepage face."""
-    return np.sqrt(upstream**2 - (upstream**2 - downstream**2) * np.asarray(x, dtype=float) / length)
 
 
 # Dam break ------------------------------------------------------------------------------------------------------------

@@ -19,6 +19,13 @@ def program(name):
     return str(beside) if os.access(beside, os.X_OK) else shutil.which(name)
 
 
+def needed(name):
+    """The path of a program; a ValueError if it is not there."""
+    if (found := program(name)) is None:
+        raise ValueError(f"no program {name} is there. Build it (sh doc/quickstart.sh), or add its folder to PATH")
+    return found
+
+
 class Command(argparse.ArgumentParser):
     """The arguments of a command. Each error is one line on standard error, with exit code 1."""
 
@@ -41,6 +48,12 @@ class Command(argparse.ArgumentParser):
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         except (OSError, KeyError, ValueError, subprocess.CalledProcessError) as error:
             sys.exit(f"{self.prog}: {_text(error)}")
+
+
+def aligned(head, rows, n_left=2):
+    """Lines of a table of texts, whose first `n_left` columns begin at the left; the others end at the right."""
+    widths = [max(map(len, cells)) for cells in zip(head, *rows)]
+    return "\n".join("  ".join(f"{cell:{'<' if place < n_left else '>'}{widths[place]}}" for place, cell in enumerate(cells)).rstrip() for cells in [head, *rows])
 
 
 def _text(error):

@@ -17,13 +17,13 @@ import textwrap
 from typing import NamedTuple
 
 import matplotlib.colors
-import matplotlib.lines
-import matplotlib.patches
 import matplotlib.patheffects
 import matplotlib.pyplot as plt
 import matplotlib.ticker
 import matplotlib.transforms
 import numpy as np
+from matplotlib.font_manager import FontProperties
+from mpl_toolkits.axes_grid1.anchored_artists import AnchoredSizeBar
 
 from scree import results, terrain, variants
 from scree.command import Command
@@ -135,7 +135,7 @@ def release(run):
 def window_of(run, maps, source):
     """(x, x, y, y) of the soil of all maps and the release, with a margin, within the box; m."""
     box, entries = results.read_box(run), variants.read_entries(pathlib.Path(run) / "parameters.prm")
-    origin = terrain.origin_of_maps(entries, 3)
+    origin = results.local_origin(entries)[:2]
     lower, upper = box.lower[:2] + origin, box.upper[:2] + origin
     corners = []
     for raster, shown in [(one.raster, np.isfinite(one.raster.values)) for one in maps] + ([(source, source.values > 0)] if source else []):
@@ -169,16 +169,15 @@ def colours_of(kind, low, high):
     return matplotlib.colors.ListedColormap(colours), bounds
 
 
-def draw_map(axes, bar, one, low, high):
-    """One map without terrain, and its colour bar from `low` to `high`."""
+def draw_map(axes, one, low, high, height):
+    """One map without terrain, and its colour bar from `low` to `high` beside a panel of this height, inches."""
     colours, bounds = colours_of(one.kind, low, high)
     image = axes.imshow(np.ma.masked_invalid(one.raster.values), cmap=colours, norm=matplotlib.colors.BoundaryNorm(bounds, colours.N),
                         extent=one.raster.extent, interpolation="nearest", zorder=1)
-    every = int(np.ceil(0.13 * len(bounds) / (bar.get_position().height * axes.figure.get_figheight())))  # inches of a number
+    every = int(np.ceil(0.13 * len(bounds) / (0.9 * height)))  # inches of a number
     ticks = bounds[np.argmin(np.abs(bounds)) % every::every]  # with 0
-    axes.figure.colorbar(image, cax=bar, spacing="proportional", ticks=ticks)
+    bar = axes.figure.colorbar(image, ax=axes, spacing="proportional", ticks=ticks, format="%g", shrink=0.9, aspect=0.9 * height / 0.13, pad=0.02).ax
     bar.tick_params(labelsize=8, length=2)
-    bar.yaxis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
     bar.set_title(one.kind.unit, fontsize=8, loc="left", pad=4)
     values = one.raster.values[np.isfinite(one.raster.values)]
     lowest = f"{_number(values.min())} to" if len(values) and (values.min() < 0 or one.name == "arrival_time") else "up to"
@@ -200,58 +199,25 @@ def draw_release(axes, raster, least):
     axes.contour(x, y, values, levels=[least], colors="black", linewidths=1.1, linestyles="--", zorder=6)
 
 
-def draw_scale_bar(axes, window):
-    """A bar of 1, 2 or 5 times a power of ten, about a quarter of the width."""
-    width = window[1] - window[0]
-    inch = width / (axes.figure.get_figwidth() * axes.get_position().width)
-    longest = min(0.3 * width, 1.5 * inch)
-    power = 10. ** np.floor(np.log10(longest))
-    length = max(power * factor for factor in (1, 2, 5) if power * factor <= longest)
-    x, y, thick = window[0] + 0.15 * inch, window[2] + 0.13 * inch, 0.05 * inch
-    for part, colour in ((0, "black"), (1, "white")):
-        axes.add_patch(matplotlib.patches.Rectangle((x + part * length / 2, y), length / 2, thick, facecolor=colour, edgecolor="black", lw=0.6, zorder=8))
+def draw_scale_bar(axes, window, width):
+    """A bar of 1, 2 or 5 times a power of ten, about a quarter of the `width` of the panel in inches."""
+    length = terrain.nice_length((window[1] - window[0]) * min(0.3, 1.5 / width))
     text = f"{length / 1000:g} km" if length >= 1000 else f"{length:g} m"
-    axes.text(x + length / 2, y + 1.6 * thick, text, ha="center", va="bottom", fontsize=8, path_effects=HALO, zorder=8)
+    axes.add_artist(AnchoredSizeBar(axes.transData, length, text, "lower left", label_top=True, size_vertical=0.03 * (window[1] - window[0]) / width,
+                                    sep=3, borderpad=0.8, frameon=False, fontproperties=FontProperties(size=8))).txt_label._text.set_path_effects(HALO)
 
 
 def draw_north(axes):
-    axes.annotate("N", xy=(1, 1), xytext=(-14, -42), xycoords="axes fraction", textcoords="offset points", ha="center", va="center", fontsize=9,
-                  fontweight="bold", path_effects=HALO, zorder=8)
-    axes.add_patch(matplotlib.patches.FancyArrowPatch((-14 / 72, -36 / 72), (-14 / 72, -10 / 72), arrowstyle="-|>", mutation_scale=9, lw=1.2, color="black",
-                   transform=axes.figure.dpi_scale_trans + matplotlib.transforms.ScaledTranslation(1, 1, axes.transAxes), zorder=8))
-
-
-class Sheet(NamedTuple):
-    """Sizes of a picture of maps in inches: panels of `width` x `height`."""
-    columns: int
-    rows: int
-    width: float
-    height: float
-    left: float = 0.62
-    bar: float = 0.72  # colour bar with its numbers, and the gap to the next panel
-    top: float = 0.5
-    below: float = 0.42
-    notes: float = 0.45
-
-    @property
-    def size(self):
-        return self.left + self.columns * (self.width + self.bar), self.rows * (self.height + self.top + self.below) + self.notes
-
-    def place(self, number):
-        """(left, bottom, width, height) of a panel and of its colour bar, in parts of the figure."""
-        row, column = divmod(number, self.columns)
-        size = np.array(self.size * 2)
-        left = self.left + column * (self.width + self.bar)
-        bottom = self.size[1] - (row + 1) * (self.height + self.top) - row * self.below
-        return (left, bottom, self.width, self.height) / size, (left + self.width + 0.07, bottom + 0.02 * self.height, 0.13, 0.9 * self.height) / size
+    axes.annotate("N", (0.935, 0.98), (0, -32), "axes fraction", "offset points", ha="center", fontsize=9, fontweight="bold", path_effects=HALO, zorder=8,
+                  arrowprops={"arrowstyle": "-|>", "facecolor": "black", "shrinkA": 0, "shrinkB": 0})
 
 
 def sheet_for(count, window):
-    """As large panels as a page of 11 inches takes."""
+    """Columns and rows of panels, and width and height of one in inches: as large as a page of 11 inches takes."""
     ratio = (window[3] - window[2]) / (window[1] - window[0])
     columns = min(count, 1 if ratio < 0.4 else 2 if ratio < 0.9 or (count == 4 and ratio < 1.6) else 4 if count == 4 else 3)
     width = min({1: 8.5, 2: 4.7, 3: 2.9, 4: 2.6}[columns], 6.5 / ratio)
-    return Sheet(columns, -(-count // columns), width, width * ratio)
+    return columns, -(-count // columns), width, width * ratio
 
 
 def coordinate_system(run):
@@ -262,13 +228,13 @@ def coordinate_system(run):
     return ""
 
 
-def _finish(axes, window, is_outer):
+def _finish(axes, window, width, is_outer):
     axes.set(xlim=window[:2], ylim=window[2:], aspect="equal")
     axes.ticklabel_format(useOffset=False, style="plain")
     axes.tick_params(labelsize=8, length=2)
-    for axis, width in ((axes.xaxis, axes.figure.get_figwidth() * axes.get_position().width), (axes.yaxis, 4.)):
-        longest = max(len(f"{value:.0f}") for value in window)
-        axis.set_major_locator(matplotlib.ticker.MaxNLocator(int(np.clip(width / (0.09 * longest + 0.25), 2, 8)), steps=[1, 2, 5, 10]))
+    longest = max(len(f"{value:.0f}") for value in window)
+    for axis, length in ((axes.xaxis, width), (axes.yaxis, 4.)):
+        axis.set_major_locator(matplotlib.ticker.MaxNLocator(int(np.clip(length / (0.09 * longest + 0.25), 2, 8)), steps=[1, 2, 5, 10]))
     axes.set_xlabel("x (m)", fontsize=8, labelpad=1)
     if is_outer:
         axes.set_ylabel("y (m)", fontsize=8, labelpad=1)
@@ -299,12 +265,14 @@ def render_sheet(run, maps, source, notes, output, observed=None):
         print(f"No terrain below the maps: {error}.")
         ground = None
     has_north = bool(variants.read_entries(pathlib.Path(run) / "parameters.prm").get("Bed/Raster"))
-    sheet = sheet_for(len(maps), window)
-    figure = plt.figure(figsize=sheet.size)
-    for number, one in enumerate(maps):
-        panel, bar = (figure.add_axes(place) for place in sheet.place(number))
+    columns, rows, width, height = sheet_for(len(maps), window)
+    size = columns * (width + 0.75) + 0.6, rows * (height + 0.9) + 0.4
+    figure, panels = plt.subplots(rows, columns, figsize=size, squeeze=False, layout="constrained")
+    for panel in panels.flat[len(maps):]:
+        panel.remove()
+    for number, (panel, one) in enumerate(zip(panels.flat, maps)):
         # Thicknesses at several times have one scale.
-        draw_map(panel, bar, one, *range_of([other for other in maps if TIME.fullmatch(other.name)] if TIME.fullmatch(one.name) else [one]))
+        draw_map(panel, one, *range_of([other for other in maps if TIME.fullmatch(other.name)] if TIME.fullmatch(one.name) else [one]), height)
         if ground:
             terrain.draw_shade(panel, ground, 0.4, 0)
             terrain.draw_shade(panel, ground, 0.15, 2, one.raster)
@@ -314,16 +282,15 @@ def render_sheet(run, maps, source, notes, output, observed=None):
         if observed and one.name in observed:
             area = observed[one.name]
             panel.contour(*terrain.places(area), np.nan_to_num(area.values) > 0, levels=[0.5], colors="#c00020", linewidths=1.4, zorder=7)
-        _finish(panel, window, number % sheet.columns == 0)
-        draw_scale_bar(panel, window)
+        _finish(panel, window, width, number % columns == 0)
+        draw_scale_bar(panel, window, width)
         if has_north:
             draw_north(panel)
     if ground:
         notes = notes + [f"contours every {terrain.contour_step(ground):g} m"]
     if coordinate_system(run):
         notes = notes + [f"coordinates: {coordinate_system(run)}"]
-    text = textwrap.fill("; ".join(notes), int(15 * (sheet.size[0] - 0.1)))
-    figure.text(0.1 / sheet.size[0], 0.08 / sheet.size[1], text, fontsize=8, color="0.3", va="bottom")
+    figure.supxlabel(textwrap.fill("; ".join(notes), int(15 * size[0])), fontsize=8, color="0.3", x=0.01, ha="left")
     save_picture(figure, output, 120)
 
 

@@ -6,6 +6,7 @@ import pathlib
 import matplotlib.pyplot as plt
 from scree import results
 from scree.command import Command
+from scree.pictures.panels import save_picture
 
 
 def plot(directory):
@@ -25,14 +26,12 @@ def plot(directory):
     figure, axes = plt.subplots(1, 3, figsize=(12, 3.6), constrained_layout=True)
     for axis, (x, y, x_label, y_label) in zip(axes, curves):
         axis.plot(x, y)
-        axis.set_xlabel(x_label)
-        axis.set_ylabel(y_label)
+        axis.set(xlabel=x_label, ylabel=y_label)
         axis.grid(alpha=0.3)
     if pressure.min() > 0 and pressure.max() > 3 * pressure.min():
         axes[1].set_xscale("log")
     figure.suptitle(directory.name)
-    figure.savefig(directory / "element.png", dpi=120)
-    plt.close(figure)
+    save_picture(figure, directory / "element.png", 120)
 
 
 def plot_all(arguments):

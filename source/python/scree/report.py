@@ -8,7 +8,6 @@ scree-maps; one that cannot be drawn is replaced by the message of its command.
 """
 
 import base64
-import csv
 import datetime
 import html
 import io
@@ -144,10 +143,9 @@ def safety_folder(run):
 def factor_of_safety(folder):
     """What the log of --safety says of the factor, and a table of its trials."""
     lines = re.findall(r"^(Factor of safety|Set by|Zone|Stopped) +(.*)$", (folder / "log.txt").read_text(encoding="utf-8"), re.MULTILINE)
-    with open(folder / "safety.csv", encoding="utf-8", newline="") as trials:
-        head, *rows = csv.reader(trials)
+    trials = results.read_table(folder / "safety.csv")
     said = "\n".join(f'<div class="{"bad" if label == "Stopped" else "good"}"><b>{label}</b> {html.escape(text)}</div>' for label, text in lines)
-    return said + table(sorted(tuple(map(float, row)) for row in rows), head)
+    return said + table(sorted(zip(*trials.values())), trials)
 
 
 def picture_commands(run, field, times):

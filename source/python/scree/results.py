@@ -18,28 +18,11 @@ def bare_name(field):
 
 
 class Fields(dict):
-    """Arrays by the bare names of their fields, such as "pore_pressure"; "pore_pressure [Pa]", as in the file, finds the same array.
-
-    `units` has the units by bare names, "" where there is none.
-    """
+    """Arrays by the bare names of their fields, such as "pore_pressure" of "pore_pressure [Pa]". `units` has the units by these names, "" without one."""
 
     def __init__(self, arrays=()):
-        """`arrays`: by names with or without units."""
-        by_label = dict(arrays)
-        super().__init__({bare_name(label): values for label, values in by_label.items()})
-        self.units = {bare_name(label): label[len(bare_name(label)) + 2:-1] for label in by_label}
-
-    def __missing__(self, name):
-        bare = bare_name(name)
-        if bare == name:
-            raise KeyError(name)
-        return self[bare]
-
-    def __contains__(self, name):
-        return super().__contains__(bare_name(name))
-
-    def get(self, name, default=None):
-        return super().get(bare_name(name), default)
+        super().__init__({bare_name(label): values for label, values in dict(arrays).items()})
+        self.units = {bare_name(label): label[len(bare_name(label)) + 2:-1] for label in dict(arrays)}
 
 
 class Points(NamedTuple):
@@ -160,8 +143,18 @@ def read_checks(run):
     file = pathlib.Path(run) / "checks.csv"
     if not file.exists():
         return []
-    with open(file, encoding="utf-8", newline="") as rows:
-        return [Check(row["check"], row["value"], row["bound"], row["class"], row["is_exceeded"] == "1", row["place"], row["remedy"]) for row in csv.DictReader(rows)]
+    return [Check(row["check"], row["value"], row["bound"], row["class"], row["is_exceeded"] == "1", row["place"], row["remedy"]) for row in read_rows(file)]
+
+
+def read_rows(path):
+    """The rows of a table in CSV, {column: text}; lines that begin with # are comments."""
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader((line for line in file if not line.startswith("#")), skipinitialspace=True))
+
+
+def write_rows(path, head, rows):
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([head, *rows])
 
 
 def read_table(path):
@@ -196,6 +189,12 @@ def read_box(run):
     vertical = int(np.argmax(np.abs(gravity[:dim]))) if np.any(gravity) else dim - 1
     return Box(vector("Mesh/Lower corner")[:dim], vector("Mesh/Upper corner")[:dim],
                float(entries["Mesh/Cell size"].split(",")[0]), vertical)
+
+
+def local_origin(entries):
+    """Map coordinates of the place 0, 0, 0 of a case, m."""
+    given = [float(word) for word in entries.get("Local origin", "").split(",") if word.strip()]
+    return np.array((given + 3 * [0.])[:3])
 
 
 def split_unit(column_name):
@@ -261,13 +260,6 @@ def _read_piece(path):
     data = grid.GetPointData()
     arrays = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
     return Points(np.nan, vtk_to_numpy(grid.GetPoints().GetData()), arrays)
-
-
-def _number(word):
-    try:
-        return float(word)
-    except ValueError:
-        return np.nan
 
 
 def _gdal():

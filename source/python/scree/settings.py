@@ -4,6 +4,8 @@
 import difflib
 import tomllib
 
+from scree import variants
+
 
 def read(file, keys, tables):
     """The content of a file whose entries are `keys`, of which `tables` are tables. Throws a ValueError with file, entry, value and remedy."""
@@ -11,13 +13,33 @@ def read(file, keys, tables):
         given = tomllib.loads(file.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ValueError(f"{file}: {error}. Strings and names with blanks or slashes stand in quotes") from error
-    for key in given:
-        if key not in keys:
-            raise fault(file, key, given[key], f"there is no such entry{nearest(key, keys)}")
+    check_keys(file, given, keys)
     for key in tables:
         if not isinstance(given.get(key, {}), dict):
             raise fault(file, key, given[key], f"write a table, [{key}]")
     return given
+
+
+def check_keys(file, given, keys, table=None):
+    if not isinstance(given, dict):
+        raise ValueError(f"{file}: [{table}] = {text(given)}: write a table with the entries {', '.join(keys)}")
+    for key in given:
+        if key not in keys:
+            raise fault(file, key, given[key], f"there is no such entry{nearest(key, keys)}", table)
+
+
+def check_entries(file, base, tables, held, forbidden):
+    """That a case with the entries `base` may have those of `tables`, {[table]: names}: no parameter among those `held`, none `forbidden`, {name: reason}."""
+    for table, entries in tables.items():
+        try:
+            variants.check_entries(base, dict.fromkeys(entries, ""))
+        except ValueError as error:
+            raise ValueError(f"{file}: [{table}]: {error}") from error
+        for entry in entries:
+            if entry in forbidden:
+                raise ValueError(f'{file}: [{table}], entry "{entry}"{forbidden[entry]}')
+            if table == "parameters" and entry in held:
+                raise ValueError(f'{file}: [{table}], entry "{entry}": it is in [set] as well. Remove one of them')
 
 
 def fault(file, entry, value, explanation, table=None):
@@ -30,6 +52,14 @@ def nearest(name, names):
     """The end of a message: what the name could have meant."""
     close = difflib.get_close_matches(name, names, 1)
     return f'. Did you mean "{close[0]}"?' if close else f". Write one of: {', '.join(names)}"
+
+
+def path(file, key, value, table=None):
+    """A file that is there; its path counts from that of the file which names it."""
+    found = file.parent / str(value)
+    if not found.is_file():
+        raise fault(file, key, value, f"there is no file {found}. Its path counts from {file.name}", table)
+    return found
 
 
 def choice(file, given, key, choices, table=None):

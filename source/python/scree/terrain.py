@@ -12,12 +12,6 @@ from scree import expressions, results, variants
 from scree.results import Raster
 
 
-def origin_of_maps(entries, dim):
-    """Map coordinates of the place 0, 0 of a case, m."""
-    given = [float(word) for word in entries.get("Local origin", "0, 0").split(",")]
-    return np.array((given + [0., 0.])[:dim - 1])
-
-
 def ground(run, window):
     """Heights of the bed of a run in 3D within `window`, (x, x, y, y) in map coordinates; None without a bed. Throws OSError or ValueError."""
     prm = pathlib.Path(run) / "parameters.prm"
@@ -30,7 +24,7 @@ def ground(run, window):
             raise ValueError(f"the raster of the bed, {entries['Bed/Raster']}, is not there: the run folder or the raster has moved")
         return cut(results.read_raster(raster), window)
     if entries.get("Bed/Level set expression"):
-        return _of_expression(results.read_box(run), entries["Bed/Level set expression"], origin_of_maps(entries, 3), window)
+        return _of_expression(results.read_box(run), entries["Bed/Level set expression"], results.local_origin(entries), window)
     raise ValueError("the heights of the bed are drawn only if it is given by a raster or an expression")
 
 
@@ -75,13 +69,16 @@ def value_at(raster, x, y):
     return np.where(is_inside, raster.values[np.clip(row, 0, rows - 1), np.clip(column, 0, columns - 1)], np.nan)
 
 
+def nice_length(length):
+    """The largest of 1, 2 and 5 times a power of ten up to a length."""
+    power = 10. ** np.floor(np.log10(length))
+    return max(factor * power for factor in (1, 2, 5) if factor * power <= length * (1 + 1e-9))
+
+
 def contour_step(raster, count=12):
-    """Height between contours, m, of which there are about `count`: 1, 2 or 5 times a power of ten."""
-    least, largest = np.nanmin(raster.values), np.nanmax(raster.values)
-    if not largest > least:
-        return 1.
-    power = 10. ** np.floor(np.log10((largest - least) / count))
-    return next(power * factor for factor in (1, 2, 5, 10) if power * factor * count >= largest - least)
+    """Height between contours, m, of which there are about `count`."""
+    height = np.nanmax(raster.values) - np.nanmin(raster.values)
+    return 1 / nice_length(count / height) if height > 0 else 1.
 
 
 def draw_shade(axes, ground, strength, zorder, soil=None):

@@ -52,9 +52,7 @@ def run_case(scree, folder, seed, mountain=None, cell=10., entries=None, n_ranks
 
 def write_table(arguments):
     """Runs the slides that the command line asks for, and prints a row each."""
-    scree = arguments.program or command.program("scree")
-    if not scree:
-        raise ValueError("no program scree: build it (sh doc/quickstart.sh), or name it with --program")
+    scree = arguments.program or command.needed("scree")
     if not re.fullmatch(r"\d+-\d+", arguments.seeds):
         raise ValueError(f"--seeds {arguments.seeds}: write the first and the last, such as 1-8")
     first, last = map(int, arguments.seeds.split("-"))

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a fit writes: report, tables, entries to paste into a case, picture."""
 
-import csv
-
 import matplotlib.pyplot as plt
 import numpy as np
 
-from scree import variants
+from scree import results, variants
+from scree.command import aligned
 from scree.fit import laboratory
 from scree.pictures.panels import save_picture
 
@@ -40,13 +39,13 @@ def text(problem, runs, solution):
     parts = [f"Fit of {problem.file}: {len(problem.tests)} tests, {problem.n_values} values, {len(problem.parameters)} free entries\n"
              f"{solution.n_evaluations} evaluations, {runs.n_runs} runs, {len(runs.failures)} failed, wall time {solution.seconds:.0f} s; "
              f"sum of squares {solution.start_cost:.4g} at the start, {solution.cost:.4g} at the end",
-             _table(["", "entry", "start", "fitted", "sigma", "low", "high"],
+             aligned(["", "entry", "start", "fitted", "sigma", "low", "high"],
                     [[f"[{number}]", one.entry, *(f"{value:.5g}" for value in (one.start, value)), f"{sigma:.2g}", f"{one.low:g}", f"{one.high:g}"]
                      for number, (one, value, sigma) in enumerate(zip(problem.parameters, solution.values, solution.sigma), 1)]),
-             _table(["correlation", *(f"[{number}]" for number in range(1, 1 + len(solution.values)))],
+             aligned(["correlation", *(f"[{number}]" for number in range(1, 1 + len(solution.values)))],
                     [[f"[{number}]", *(f"{value:+.2f}" for value in row[:number])] + [""] * (len(row) - number)
                      for number, row in enumerate(solution.correlation, 1)]),
-             _table(["test", "quantity", "values", "rms", "", "largest"],
+             aligned(["test", "quantity", "values", "rms", "", "largest"],
                     [[test.name, column.name, str(len(column.values)), f"{rms:.3g}", unit, f"{100 * (column.largest if column.is_strain else 1.) * np.max(np.abs(column.differences(law))):.3g}"]
                      for test, _, column, law in _pairs(problem, solution) for rms, unit in [column.rms(law)]]),
              "\n".join(f"FLAG  {flag}." for flag in solution.flags) or "No flags."]
@@ -57,29 +56,17 @@ def text(problem, runs, solution):
     return "\n\n".join(parts)
 
 
-def _table(head, rows):
-    widths = [max(map(len, cells)) for cells in zip(head, *rows)]
-    return "\n".join("  ".join(cell.ljust(width) if place < 2 else cell.rjust(width) for place, (cell, width) in enumerate(zip(cells, widths))).rstrip()
-                     for cells in [head, *rows])
-
-
 def _write_parameters(file, problem, solution):
-    with open(file, "w", encoding="utf-8", newline="") as out:
-        rows = csv.writer(out)
-        names = [one.entry for one in problem.parameters]
-        rows.writerow(["entry", "start", "fitted", "sigma", "low", "high", *(f"correlation with {name}" for name in names)])
-        for one, value, sigma, correlation in zip(problem.parameters, solution.values, solution.sigma, solution.correlation):
-            rows.writerow([one.entry, one.start, f"{value:.9g}", f"{sigma:.4g}", one.low, one.high, *(f"{number:.5f}" for number in correlation)])
+    results.write_rows(file, ["entry", "start", "fitted", "sigma", "low", "high", *(f"correlation with {one.entry}" for one in problem.parameters)], (
+        [one.entry, one.start, f"{value:.9g}", f"{sigma:.4g}", one.low, one.high, *(f"{number:.5f}" for number in correlation)]
+        for one, value, sigma, correlation in zip(problem.parameters, solution.values, solution.sigma, solution.correlation)))
 
 
 def _write_residuals(file, problem, solution):
-    with open(file, "w", encoding="utf-8", newline="") as out:
-        rows = csv.writer(out)
-        rows.writerow(["test", "quantity", "unit", "strain", "measured", "law", "difference", "row_weight"])
-        for test, _, column, law in _pairs(problem, solution):
-            for strain, measured, value, weight in zip(column.strain, column.values, law, column.row_weights):
-                rows.writerow([test.name, column.name, "-" if column.is_strain else "Pa",
-                               *(f"{number:.7g}" for number in (strain, measured, value, value - measured, weight))])
+    results.write_rows(file, ["test", "quantity", "unit", "strain", "measured", "law", "difference", "row_weight"], (
+        [test.name, column.name, "-" if column.is_strain else "Pa", *(f"{number:.7g}" for number in values)]
+        for test, _, column, law in _pairs(problem, solution)
+        for values in zip(column.strain, column.values, law, law - column.values, column.row_weights)))
 
 
 def snippet(problem, solution):

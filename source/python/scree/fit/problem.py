@@ -90,14 +90,6 @@ def read(file):
     return problem
 
 
-def _check_keys(file, given, keys, table):
-    if not isinstance(given, dict):
-        raise ValueError(f"{file}: [{table}] = {settings.text(given)}: write a table with the entries {', '.join(keys)}")
-    for key in given:
-        if key not in keys:
-            raise settings.fault(file, key, given[key], f"there is no such entry{settings.nearest(key, keys)}", table)
-
-
 def _parameter(file, entry, given):
     keys = ("start", "low", "high")
     if not isinstance(given, dict) or not set(keys) <= set(given) <= set(OF_A_PARAMETER) or not all(settings.is_number(given[key]) for key in keys):
@@ -116,7 +108,7 @@ def _parameter(file, entry, given):
 
 def _test(file, given, name, own, weights, step):
     table = f"tests.{name}"
-    _check_keys(file, own, OF_A_TEST, table)
+    settings.check_keys(file, own, OF_A_TEST, table)
     if not re.fullmatch(r"[\w.-]+", name):
         raise ValueError(f'{file}: [tests."{name}"]: write a name of letters, digits, "-" and "_": files get it')
     case = _file(file, "case", own.get("case", given.get("case")), table)
@@ -143,10 +135,7 @@ def _test(file, given, name, own, weights, step):
 def _file(file, key, value, table):
     if value is None:
         raise ValueError(f'{file}: [{table}]: entry "{key}" is missing. Its path counts from {file.name}')
-    path = file.parent / str(value)
-    if not path.is_file():
-        raise settings.fault(file, key, value, f"there is no file {path}. Its path counts from {file.name}", table)
-    return path
+    return settings.path(file, key, value, table)
 
 
 def _columns(file, table, data, path, own, strain, weights):
@@ -154,7 +143,7 @@ def _columns(file, table, data, path, own, strain, weights):
     texts, lines = laboratory.read_csv(data)
     given = own.get("columns", {})
     measured, coordinates = laboratory.MEASURED[path], laboratory.COORDINATES[path]
-    _check_keys(file, given, tuple(dict.fromkeys(coordinates + measured)), f"{table}.columns")
+    settings.check_keys(file, given, tuple(dict.fromkeys(coordinates + measured)), f"{table}.columns")
     values = {name: _values(file, f"{table}.columns.{name}", data, texts, lines, name, one, strain) for name, one in given.items()}
     coordinate = next((name for name in coordinates if name in given), None)
     chosen = [name for name in measured if name in given and name != coordinate]
@@ -184,7 +173,7 @@ def _columns(file, table, data, path, own, strain, weights):
 
 def _values(file, table, data, texts, lines, name, given, strain):
     """A column of the table in SI units."""
-    _check_keys(file, given, OF_A_COLUMN, table)
+    settings.check_keys(file, given, OF_A_COLUMN, table)
     for key in ("column", "unit"):
         if key not in given:
             raise ValueError(f'{file}: [{table}]: entry "{key}" is missing. Write {name} = {{ column = "NAME IN THE TABLE", unit = "'
@@ -221,16 +210,8 @@ def _check_entries(file, test, common, parameters):
     base = {"Path": test.path, **variants.read_entries(test.case)}
     given = {entry: value for entry, value in test.entries.items() if entry not in ("Path", "Final strain", "Number of steps")}
     law = {**base, **given}.get("Material", "Nor-Sand")
-    for table, entries in (("set", given), ("parameters", [one.entry for one in parameters])):
-        table = f"tests.{test.name}.set" if table == "set" and not set(entries) <= set(common) else table
-        try:
-            variants.check_entries(base, dict.fromkeys(entries, ""))
-        except ValueError as error:
-            raise ValueError(f"{file}: [{table}]: {error}") from error
-        for entry in entries:
-            if entry in OWN:
-                raise ValueError(f'{file}: [{table}], entry "{entry}" cannot be free: {OWN[entry]}')
-            if table == "parameters" and entry in given:
-                raise ValueError(f'{file}: [{table}], entry "{entry}": it is in [set] as well. Remove one of them')
-            if table == "parameters" and "/" in entry and entry.split("/")[0] != law:
-                raise ValueError(f'{file}: [{table}], entry "{entry}": the law of {test.case} is {law}. Free one of its entries, or change "Material"')
+    tables = {"set" if set(given) <= set(common) else f"tests.{test.name}.set": given, "parameters": [one.entry for one in parameters]}
+    settings.check_entries(file, base, tables, given, {entry: f" cannot be free: {reason}" for entry, reason in OWN.items()})
+    for entry in tables["parameters"]:
+        if "/" in entry and entry.split("/")[0] != law:
+            raise ValueError(f'{file}: [parameters], entry "{entry}": the law of {test.case} is {law}. Free one of its entries, or change "Material"')

@@ -19,9 +19,7 @@ class Runs:
 
     def __init__(self, problem, folder, n_cores):
         self.problem, self.folder, self.n_cores = problem, pathlib.Path(folder), n_cores
-        self.program = command.program("scree-element")
-        if self.program is None:
-            raise ValueError("no program scree-element is there. Build it (cmake --build build --target scree-element), or add its folder to PATH")
+        self.program = command.needed("scree-element")
         # The cases of the tests with the entries that all runs share.
         self.texts = {test.name: variants.set_entries(variants.read_case(test.case, self.folder), test.entries) for test in problem.tests}
         self.n_runs, self.failures = 0, []

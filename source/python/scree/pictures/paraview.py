@@ -31,7 +31,7 @@ def _camera(box, pictures):
 def write_ground(run, box, output):
     """Writes the ground of a run in 3D as a surface; returns whether there is one."""
     run = pathlib.Path(run)
-    origin = terrain.origin_of_maps(variants.read_entries(run / "parameters.prm"), 3)
+    origin = results.local_origin(variants.read_entries(run / "parameters.prm"))
     try:
         ground = terrain.ground(run, tuple(side[axis] + origin[axis] for axis in range(2) for side in (box.lower, box.upper)))
     except (OSError, ValueError) as error:

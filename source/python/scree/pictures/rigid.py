@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Rigid ground of a run: level sets of its bed and obstacles, from their expressions, profiles and rasters."""
 
+import functools
 import pathlib
 import re
 import sys
@@ -54,10 +55,10 @@ def displacement(run, subsection, time, dim):
     return np.array([np.interp(time, statistics["Time (s)"], statistics[way]) if way in statistics else 0. for way in ways])
 
 
-def _report(subsection, error, reported=set()):  # pylint: disable=dangerous-default-value  # once per subsection
-    if subsection not in reported:
-        print(f"scree-render: subsection {subsection} is not drawn: {error or type(error).__name__}.", file=sys.stderr)
-        reported.add(subsection)
+@functools.lru_cache
+def _report(subsection, message):
+    """Once, however many pictures there are."""
+    print(f"scree-render: subsection {subsection} is not drawn: {message}.", file=sys.stderr)
 
 
 def _level_set(prm, entries, subsection, here, origin):
@@ -73,9 +74,7 @@ def rigid_surfaces(run, places, time):
     """The bed and the obstacles of a run at `places` (arrays x, y, or x, y, z) and a time. Those that cannot be read are left out."""
     prm = pathlib.Path(run) / "parameters.prm"
     entries = variants.read_entries(prm)
-    origin = np.zeros(3)
-    written = [float(word) for word in entries.get("Local origin", "").split(",") if word.strip()]
-    origin[:len(written)] = written
+    origin = results.local_origin(entries)
     surfaces = []
     for key, kind in entries.items():
         subsection, _, name = key.rpartition("/")
@@ -86,7 +85,7 @@ def rigid_surfaces(run, places, time):
         try:
             level_set = _level_set(prm, entries, subsection, here, origin)
         except (OSError, SyntaxError, NameError, TypeError, ValueError, KeyError) as error:
-            _report(subsection, error)
+            _report(subsection, str(error) or type(error).__name__)
             continue
         surfaces.append(Surface(subsection, level_set, moved))
     return surfaces

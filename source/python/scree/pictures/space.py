@@ -19,6 +19,7 @@ from vtkmodules.vtkFiltersSources import vtkCubeSource
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow
 from vtkmodules.vtkRenderingOpenGL2 import vtkOpenGLSphereMapper
 
+from scree import terrain
 from scree.pictures import rigid
 from scree.pictures.plane import blurred, point_sides
 
@@ -207,12 +208,6 @@ def _contour_lines(surface, heights):
     return _actor(mapper, (0.35, 0.32, 0.28), Opacity=0.45, LineWidth=1.2, Lighting=0)
 
 
-def nice_length(length):
-    """The largest of 1, 2 and 5 times a power of ten below a length."""
-    power = 10. ** np.floor(np.log10(length))
-    return max(factor * power for factor in (1, 2, 5) if factor * power <= length * (1 + 1e-9))
-
-
 class Scene:
     """Draws the points of a run at several times from one camera; close() ends it, as does leaving `with`."""
 
@@ -229,7 +224,7 @@ class Scene:
         self._draw_ground(0.)
         bounds = self._bounds_of_ground(lower, upper)
         self.camera = camera_of(bounds, view, width)
-        self.scale_length = nice_length(0.17 * np.max((bounds[1] - bounds[0])[:2]))
+        self.scale_length = terrain.nice_length(0.17 * np.max((bounds[1] - bounds[0])[:2]))
         self.window = stack.enter_context(offscreen_window(SUPERSAMPLING * self.camera.width, SUPERSAMPLING * self.camera.height))
         self._set_view()
         self.window.AddRenderer(self.renderer)
@@ -277,7 +272,7 @@ class Scene:
             self.ground.append(_surface(solid, GROUND if surface.is_bed else STRUCTURE))
             if surface.is_bed:
                 low, high = self.coordinates[2][0], solid.GetBounds()[5]
-                step = nice_length(max(high - low, 1e-9) / 8)
+                step = terrain.nice_length(max(high - low, 1e-9) / 8)
                 self.ground.append(_contour_lines(solid, np.arange(np.ceil(low / step) + 1, high / step) * step))
         if not any(surface.is_bed for surface in surfaces):
             self.ground.append(self._floor())

@@ -70,21 +70,13 @@ def name_lines(axes, size=9):
 
 
 def _spread(places, sizes):
-    """Places moved apart as little as needed, so that intervals of these sizes about them do not overlap."""
-    order = np.argsort(places)
-    groups = []  # [sum of the wanted bottoms, total size, members]
-    for index in order:
-        groups.append([places[index] - sizes[index] / 2, sizes[index], [index]])
-        while len(groups) > 1 and groups[-2][0] / len(groups[-2][2]) + groups[-2][1] > groups[-1][0] / len(groups[-1][2]):
-            bottom, size, members = groups.pop()
-            groups[-1] = [groups[-1][0] + bottom - len(members) * groups[-1][1], groups[-1][1] + size, groups[-1][2] + members]
-    result = np.zeros(len(places))
-    for bottom, _, members in groups:
-        y = bottom / len(members)
-        for index in members:
-            result[index] = y + sizes[index] / 2
-            y += sizes[index]
-    return result
+    """Places moved apart as little as needed (least squares), so that intervals of these sizes about them do not overlap."""
+    order, n = np.argsort(places), len(places)
+    sizes = np.asarray(sizes)[order]
+    below = np.cumsum(sizes) - sizes
+    free = np.asarray(places)[order] - sizes / 2 - below  # of the bottoms, without what lies below: they only must not fall
+    rising = [max(min(np.mean(free[low:high + 1]) for high in range(i, n)) for low in range(i + 1)) for i in range(n)]
+    return (rising + below + sizes / 2)[np.argsort(order)]
 
 
 def render_statistics(run, output, titles=None):

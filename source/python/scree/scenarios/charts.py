@@ -66,14 +66,10 @@ def draw_exceedance(result, values, output):
     for quantile, value in zip(evaluation.QUANTILES, evaluation.quantiles(values)):
         axes.plot([value, value], [0, 100 * (1 - quantile)], color="0.5", lw=0.8, ls="--")
         axes.annotate(f"{value:.4g}", (value, 100 * (1 - quantile)), textcoords="offset points", xytext=(5, 4), fontsize=8)
-    axes.set(xlabel=_axis(result), ylabel="runs that reach or exceed it, %", ylim=(0, 108))
+    axes.set(xlabel=result.label, ylabel="runs that reach or exceed it, %", ylim=(0, 108))
     axes.set_title(f"{len(values)} runs; dashed: 5, 25, 50, 75 and 95 % of the runs stay below", fontsize=9, loc="left")
     axes.grid(alpha=0.3)
     save_picture(figure, output, 120)
-
-
-def _axis(result):
-    return result.name + (f" ({result.unit})" if result.unit != "-" else "")
 
 
 def _label(text):
@@ -101,7 +97,7 @@ def draw_tornado(charts, output):
         axes.set_yticks(range(len(bars)), [_label(bar.label) for bar in bars], fontsize=8)
         axes.invert_yaxis()
         axes.margins(x=0.15)
-        axes.set_xlabel(_axis(result))
+        axes.set_xlabel(result.label)
         axes.set_title(f"base run {base:.4g}" + (f" {result.unit}" if result.unit != "-" else "") + "; blue: lowest value of the parameter, red: highest",
                        fontsize=9, loc="left")
         axes.grid(alpha=0.3, axis="x")
@@ -150,5 +146,5 @@ def draw_values(parameters, rows, result, values, output):
         axes.tick_params(labelsize=8)
         axes.grid(alpha=0.3)
     for axes in panels[:, 0]:
-        axes.set_ylabel(_axis(result), fontsize=8)
+        axes.set_ylabel(result.label, fontsize=8)
     save_picture(figure, output, 120)

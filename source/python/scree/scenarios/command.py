@@ -12,7 +12,7 @@ that have failed are tried again, and the evaluation goes on without those that 
 import os
 import pathlib
 
-from scree.command import Command
+from scree.command import Command, aligned
 from scree.scenarios import page, runs, study
 
 
@@ -21,9 +21,7 @@ def _show(one, n_cores, n_ranks):
     verdicts = runs.verdicts(one)
     names = ["run", *(parameter.label for parameter in one.parameters), "verdict"]
     rows = [[number, *map(str, row), verdicts[number].word] for number, row in zip(one.numbers, one.rows)]
-    widths = [max(map(len, cells)) for cells in zip(names, *rows)]
-    for cells in [names, *rows]:
-        print("  ".join(cell.ljust(width) for cell, width in zip(cells, widths)).rstrip())
+    print(aligned(names, rows, len(names)))
     n_left = sum(verdict.word != "finished" for verdict in verdicts.values())
     seconds, source = runs.estimate(one)
     print(f"{n_left} of {len(rows)} runs to do, {runs.duration(seconds)} each ({source}); "

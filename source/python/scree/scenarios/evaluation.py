@@ -22,6 +22,10 @@ class Result(NamedTuple):
     name: str
     unit: str
 
+    @property
+    def label(self):
+        return self.name + (f" ({self.unit})" if self.unit != "-" else "")
+
 
 def numbers_of(study, run):
     """{Result: value} of a run that has ended well."""

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What is known of an event, table [observed] of a study, and how near a run comes to it."""
 
-import csv
 import pathlib
 from typing import NamedTuple
 
@@ -44,10 +43,8 @@ def read(folder, given):
 
 
 def _path(file):
-    with open(file, encoding="utf-8") as text:
-        rows = list(csv.DictReader(text, skipinitialspace=True))
     try:
-        corners = np.array([(float(row["x"]), float(row["y"])) for row in rows])
+        corners = np.array([(float(row["x"]), float(row["y"])) for row in results.read_rows(file)])
     except (KeyError, TypeError, ValueError) as error:
         raise ValueError(f'entry "path" = {file}: write a table with columns x and y, in m') from error
     if len(corners) < 2:

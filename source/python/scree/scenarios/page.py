@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Files of a study: the table of its runs, maps of probability, pictures, and the report that holds them."""
 
-import csv
 import html
 import shutil
 from typing import NamedTuple
@@ -48,13 +47,10 @@ def write_all(study):
 
 def write_table(study, done):
     """A row for each run: parameters, verdict, results."""
-    with open(study.folder / "runs.csv", "w", encoding="utf-8", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(["run", *(one.label for one in study.parameters), "verdict", "checks", "wall_time_s", *map(column, done.results), "message"])
-        for number, row in zip(study.numbers, study.rows):
-            one, found = done.verdicts[number], done.numbers.get(number, {})
-            values = [_cell(found.get(result, np.nan)) for result in done.results]
-            table.writerow([number, *row, one.word, _checks(one), _cell(one.seconds), *values, one.message])
+    head = ["run", *(one.label for one in study.parameters), "verdict", "checks", "wall_time_s", *map(column, done.results), "message"]
+    results.write_rows(study.folder / "runs.csv", head, (
+        [number, *row, one.word, _checks(one), _cell(one.seconds), *(_cell(found.get(result, np.nan)) for result in done.results), one.message]
+        for number, row in zip(study.numbers, study.rows) for one, found in [(done.verdicts[number], done.numbers.get(number, {}))]))
 
 
 def _checks(verdict):
@@ -113,26 +109,26 @@ def series(done, study, result):
 
 
 def nearest(done):
-    """The number of the run with the largest critical success index of the impact; None without an event."""
-    index = next((one for one in done.results if one.key == "impact_index"), None)
-    return max(done.numbers, key=lambda number: done.numbers[number].get(index, -1.)) if index else None
+    """(number, critical success index of the impact) of the run with the largest one; None without an event."""
+    found = {number: value for number, row in done.numbers.items() for one, value in row.items() if one.key == "impact_index"}
+    return max(found.items(), key=lambda item: item[1]) if found else None
 
 
 def draw(study, done, probabilities):
     """{name: caption} of the pictures that have been drawn."""
     folder, drawn = study.folder, {}
-    if nearest(done):
-        charts.draw_nearest(study.run(nearest(done)), study.event, folder / "nearest.png")
-        drawn["nearest"] = f"Run {nearest(done)}, with the largest critical success index of the impact, and the observed areas"
+    if best := nearest(done):
+        charts.draw_nearest(study.run(best[0]), study.event, folder / "nearest.png")
+        drawn["nearest"] = f"Run {best[0]}, with the largest critical success index of the impact, and the observed areas"
     first = study.run(next(iter(done.numbers)))
     if probabilities and results.read_box(first).dim == 3:
         sources = [one for one in (maps.release(study.run(number)) for number in done.numbers) if one]
         placed = evaluation.on_one_grid(sources) if sources else []
         source = placed[0]._replace(values=np.max([np.nan_to_num(one.values) for one in placed], axis=0)) if placed else None
         charts.draw_probabilities(first, probabilities, source, word(study), len(done.numbers), folder / "probability.png")
-        drawn["probability"] = "Part of the runs above each threshold"
     elif probabilities:
         charts.draw_profiles(probabilities, word(study), len(done.numbers), folder / "probability.png")
+    if probabilities:
         drawn["probability"] = "Part of the runs above each threshold"
     shown = [one for one in done.results if one.key in ("run_out", "area", "length", "largest_speed", "h_over_l")]
     run_out = next((one for one in done.results if one.key == "run_out"), None)
@@ -177,12 +173,9 @@ def summary(study, done):
     n_lost = sum(row.get(evaluation.Result("mass_lost", "Mass lost", "kg"), 0.) > 0 for row in done.numbers.values())
     if n_lost:
         lines.append((False, "Box", f"in {n_lost} of {n_done} runs soil has left through open walls: their run-out is a lower bound. Enlarge the box"))
-    number = nearest(done)
-    if number:
-        index = next(one for one in done.results if one.key == "impact_index")
-        row = study.rows[study.numbers.index(number)]
-        values = ", ".join(f"{one.label} = {_short(value)}" for one, value in zip(study.parameters, row))
-        lines.append((True, "Nearest", f"run {number} has the largest critical success index of the impact, {done.numbers[number][index]:.3f}: {values}"))
+    if best := nearest(done):
+        values = ", ".join(f"{one.label} = {_short(value)}" for one, value in zip(study.parameters, study.rows[study.numbers.index(best[0])]))
+        lines.append((True, "Nearest", f"run {best[0]} has the largest critical success index of the impact, {best[1]:.3f}: {values}"))
     for quantity, thresholds in study.thresholds.items():
         largest = max((row.get(one, 0.) for row in done.numbers.values() for one in row if one.key == evaluation.MAPS[quantity]), default=0.)
         unit, factor = charts.UNITS[quantity]
@@ -223,7 +216,7 @@ def _run_table(study, done):
     for number, row in zip(study.numbers, study.rows):
         verdict, found = done.verdicts[number], done.numbers.get(number, {})
         rows.append((number, *map(_short, row), verdict.word, _checks(verdict), *(f"{found[one]:.5g}" if one in found else "" for one in done.results)))
-    head = ("run", *(one.label for one in study.parameters), "verdict", "checks", *(one.name + (f" ({one.unit})" if one.unit != "-" else "") for one in done.results))
+    head = ("run", *(one.label for one in study.parameters), "verdict", "checks", *(one.label for one in done.results))
     return f'<div style="overflow-x: auto">{report.table(rows, head)}</div>'
 
 

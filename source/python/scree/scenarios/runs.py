@@ -87,10 +87,7 @@ def prepare(study, n_ranks):
             shutil.rmtree(study.run(number))
     shutil.rmtree(study.folder / "new")
     (study.folder / "values.json").write_text(json.dumps(_values(study)), encoding="utf-8")
-    program = command.program("scree")
-    if program is None:
-        raise ValueError("no program scree is there. Build it (sh doc/quickstart.sh), or add its folder to PATH")
-    command_line = [*(["mpirun", "-np", str(n_ranks)] if n_ranks > 1 else []), str(pathlib.Path(program).resolve())]
+    command_line = [*(["mpirun", "-np", str(n_ranks)] if n_ranks > 1 else []), str(pathlib.Path(command.needed("scree")).resolve())]
     config = {"runs": study.numbers, "ranks": n_ranks, "program": command_line}
     (study.folder / "runs.json").write_text(json.dumps(config), encoding="utf-8")
     shutil.copy(SNAKEFILE, study.folder / "Snakefile")
@@ -111,13 +108,10 @@ def estimate(study):
     known = [one.seconds for one in verdicts(study).values() if one.seconds > 0] if study.folder.exists() else []
     if known:
         return sum(known) / len(known), f"mean of {len(known)} finished runs"
-    program = command.program("scree")
-    if program is None:
-        raise ValueError("no program scree is there to estimate the time. Build it (sh doc/quickstart.sh)")
     with tempfile.TemporaryDirectory() as folder:
         case = pathlib.Path(folder, "case.prm")
         studies.write_case(study, study.rows[0], case)
-        done = subprocess.run([program, str(case), "--advise"], capture_output=True, text=True, check=False, cwd=folder)
+        done = subprocess.run([command.needed("scree"), str(case), "--advise"], capture_output=True, text=True, check=False, cwd=folder)
     found = re.search(r"^ +run +(\S+) core-seconds", done.stdout, re.MULTILINE)
     if done.returncode != 0 or not found:
         reason = done.stderr.strip().splitlines() or ["it tells no time"]

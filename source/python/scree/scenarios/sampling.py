@@ -11,6 +11,9 @@ from scipy.stats import qmc
 SAMPLINGS = ("one at a time", "grid", "Latin hypercube", "Sobol")
 KEYS = {"uniform": ("low", "high"), "normal": ("mean", "deviation"), "lognormal": ("mean", "deviation"), "triangular": ("low", "mode", "high"),
         "list": ("values",)}
+LAWS = {"uniform": lambda low, high: stats.uniform(low, high - low), "normal": stats.norm,
+        "triangular": lambda low, mode, high: stats.triang((mode - low) / (high - low), low, high - low),
+        "lognormal": lambda mean, deviation: stats.lognorm(spread := np.sqrt(np.log(1 + (deviation / mean)**2)), scale=mean * np.exp(-spread**2 / 2))}
 BOUNDS = ("low", "high")  # may cut off a normal or a lognormal distribution
 
 
@@ -39,16 +42,7 @@ class Distribution(NamedTuple):
         return f"{self.kind}, " + ", ".join(f"{name} {value:g}" for name, value in self.numbers.items())
 
     def _law(self):
-        one = self.numbers
-        if self.kind == "uniform":
-            return stats.uniform(one["low"], one["high"] - one["low"])
-        if self.kind == "triangular":
-            width = one["high"] - one["low"]
-            return stats.triang((one["mode"] - one["low"]) / width, one["low"], width)
-        if self.kind == "normal":
-            return stats.norm(one["mean"], one["deviation"])
-        spread = np.sqrt(np.log(1 + (one["deviation"] / one["mean"])**2))
-        return stats.lognorm(spread, scale=one["mean"] * np.exp(-spread**2 / 2))
+        return LAWS[self.kind](*(self.numbers[name] for name in KEYS[self.kind]))
 
 
 def distribution_of(given):

@@ -63,15 +63,15 @@ def read(file):
     given = settings.read(file, KEYS, TABLES)
     if "case" not in given:
         raise ValueError(f'{file}: the base case is missing. Write for instance case = "slope.prm"; its path counts from this file')
-    case = file.parent / str(given["case"])
-    if not case.is_file():
-        raise settings.fault(file, "case", given["case"], f"there is no file {case}. Its path counts from {file.name}")
+    case = settings.path(file, "case", given["case"])
     base = variants.read_entries(case)
     fixed = {key: settings.text(value) for key, value in given.get("set", {}).items()}
     parameters = [_parameter(file, table, entry, value) for table in ("parameters", "factors") for entry, value in given.get(table, {}).items()]
     if not parameters:
         raise ValueError(f"{file}: no entry differs between the runs. Write one into [parameters] or [factors]")
-    _check_entries(file, base, fixed, parameters)
+    entries = {kind: [one.entry for one in parameters if one.is_factor == (kind == "factors")] for kind in ("parameters", "factors")}
+    settings.check_entries(file, base, {"set": fixed, **entries}, fixed, {
+        "Output directory": ': the runs have folders of their own. Name that of the study by the entry "results"'})
     for key, value in fixed.items():
         _check_file(file, case, base, "set", key, value)
     fixed = {key: _moved(file, value) for key, value in fixed.items()}
@@ -143,21 +143,6 @@ def _observed(file, given, entries):
         return observed.read(file.parent, given["observed"])
     except ValueError as error:
         raise ValueError(f"{file}: [observed], {error}") from error
-
-
-def _check_entries(file, base, fixed, parameters):
-    """That the case may have these entries, and none of them twice."""
-    for table, entries in (("set", fixed), ("parameters", [one.entry for one in parameters if not one.is_factor]),
-                           ("factors", [one.entry for one in parameters if one.is_factor])):
-        try:
-            variants.check_entries(base, dict.fromkeys(entries, ""))
-        except ValueError as error:
-            raise ValueError(f"{file}: [{table}]: {error}") from error
-        for entry in entries:
-            if entry == "Output directory":
-                raise ValueError(f'{file}: [{table}], entry "{entry}": the runs have folders of their own. Name that of the study by the entry "results"')
-            if table == "parameters" and entry in fixed:
-                raise ValueError(f'{file}: [{table}], entry "{entry}": it is in [set] as well. Remove one of them')
 
 
 def _moved(file, value):

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The kinds of charts of a study.
 
-Each has `timed` (its runs are made one at a time), `keep(run)` (called for each new run), `complete` (adds columns) and `write`.
+Each has `timed` (its runs are made one at a time), `keep(run)` (called for each new run) and `write`.
 A chart is as wide as a page and shows at most five curves an axes, with their names beside them.
 """
 
-import csv
 import math
 
 import matplotlib.colors
@@ -15,6 +14,7 @@ import matplotlib.ticker
 import numpy as np
 
 from scree.pictures.tables import name_lines
+from scree.results import read_rows, write_rows
 from scree.studies.measures import BOUNDS, DECIDING
 
 plt.rcParams.update({"svg.hashsalt": "scree", "svg.fonttype": "none", "font.size": 10, "axes.titlesize": 10, "axes.grid": True, "grid.alpha": 0.3,
@@ -36,15 +36,6 @@ def _finite(row, *names):
     return all(isinstance(row.get(name), (int, float)) and math.isfinite(row[name]) for name in names)
 
 
-def mark_pareto(rows):
-    """Adds the column "Pareto": no other run is at least as good in error and cost and better in one."""
-    error, cost = "error", "core-seconds"
-    for row in rows:
-        row["Pareto"] = _finite(row, error, cost) and not any(
-            other[error] <= row[error] and other[cost] <= row[cost] and (other[error], other[cost]) != (row[error], row[cost])
-            for other in rows if _finite(other, error, cost))
-
-
 def tick_axis(axis):
     """Several ticks with plain numbers on a logarithmic axis, however few decades it spans."""
     low, high = axis.get_view_interval()
@@ -55,24 +46,25 @@ def tick_axis(axis):
     axis.set_minor_locator(matplotlib.ticker.NullLocator())
 
 
-def legend_above(figure, axes, columns):
-    """One line of names above all axes of a figure."""
-    height = 0.32 / figure.get_figheight()
-    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - height))
-    figure.legend(*axes.get_legend_handles_labels(), loc="upper center", ncols=columns, frameon=False, fontsize=9)
+class NoChart:
+    """Of a study whose table has all numbers; `timed` if times are compared."""
 
-
-class Curves:
-    """draw(figure, rows) on an empty figure as wide as a page and `height` inches high; `timed` if times are compared."""
-
-    def __init__(self, draw, height=4., timed=False):
-        self.draw, self.height, self.timed = draw, height, timed
+    def __init__(self, timed=False):
+        self.timed = timed
 
     def keep(self, run):
         pass
 
-    def complete(self, rows):
+    def write(self, rows, target):
         pass
+
+
+class Curves(NoChart):
+    """draw(figure, rows) on an empty figure as wide as a page and `height` inches high."""
+
+    def __init__(self, draw, height=4., timed=False):
+        super().__init__(timed)
+        self.draw, self.height = draw, height
 
     def write(self, rows, target):
         figure = plt.figure(figsize=(WIDTH, self.height))
@@ -87,9 +79,6 @@ class WorkPrecision(Curves):
     def __init__(self, methods, ylabel, annotate="h", unit=" m"):
         super().__init__(self._draw, 4.2, timed=True)
         self.methods, self.ylabel, self.annotate, self.unit = methods, ylabel, annotate, unit
-
-    def complete(self, rows):
-        mark_pareto(rows)
 
     def _draw(self, figure, rows):
         axes = figure.subplots()
@@ -179,16 +168,12 @@ class RunCurves(Curves):
     def write(self, rows, target):
         table = target.with_name(f"{target.name}_curves.csv")
         if self.found:
-            with open(table, "w", newline="", encoding="utf-8") as file:
-                writer = csv.writer(file, lineterminator="\n")
-                writer.writerow(["curve", "x", "y"])
-                writer.writerows([name, f"{x:.4g}", f"{y:.4g}"] for name, points in self.found.items() for x, y in zip(*points))
+            write_rows(table, ["curve", "x", "y"], ([name, f"{x:.4g}", f"{y:.4g}"] for name, points in self.found.items() for x, y in zip(*points)))
         if not table.exists():  # none of the runs of a short version has a curve
             return
         curves = {}
-        with open(table, newline="", encoding="utf-8") as file:
-            for row in csv.DictReader(file):
-                curves.setdefault(row["curve"], []).append((float(row["x"]), float(row["y"])))
+        for row in read_rows(table):
+            curves.setdefault(row["curve"], []).append((float(row["x"]), float(row["y"])))
         figure = plt.figure(figsize=(WIDTH, self.height))
         self.draw(figure, {name: np.array(points).T for name, points in curves.items()}, rows)
         save(figure, target)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the sizes of cells of one curve tell about h = 0, and lengths of deposits."""
 
+import math
+
 import numpy as np
 
 from scree.studies.study import transfer
@@ -8,6 +10,12 @@ from scree.studies.study import transfer
 TRANSFERS = {"FLIP": {"Transfer/Method": "FLIP", "Transfer/PIC rate": 1}, "AFLIP": transfer("AFLIP"),
              "TPIC": transfer("TPIC")}
 TIP, MASS, HEIGHT = "front 99 %", "front 90 %", "height"
+
+
+def whole_cells(h, lengths):
+    """Entries of cells of size h and of a box of whole cells that has these lengths, m."""
+    corner = ", ".join(f"{math.ceil(round(length / h, 6)) * h:.12g}" for length in lengths)
+    return {"Mesh/Cell size": f"{h:.12g}", "Mesh/Upper corner": corner}
 
 
 def fit(h, values, order):
@@ -26,8 +34,6 @@ class Limit:
         first, second = fit(h, values, 1.), fit(h, values, 2.)
         self.value = (first[0] + second[0]) / 2
         self.uncertainty = abs(first[0] - second[0]) / 2 + max(first[2], second[2])
-        orders = np.arange(0.5, 3.01, 0.05)
-        self.order = orders[np.argmin([fit(h, values, order)[2] for order in orders])]
         self.h, self.values = h, values
         self.last_change = values[-1] / values[-2] - 1
         self.missing = 1 - values[0] / self.value

@@ -12,18 +12,6 @@ import numpy as np
 
 from scree import results
 
-# Part of an error message of scree -> cause, in short.
-CAUSES = {
-    "the stable step has fallen": "step fell",
-    "a point moves at": "speed",
-    "is not a number": "strain not a number",
-    "cannot follow its deformation": "deformation of a step",
-    "left the box": "left the box",
-    "did not converge": "pressure solver",
-    "nothing sets the level": "no level of p",
-}
-
-
 # Bounds of the stability maps, the same in all of them. A column of their tables has the name of its bound; what a map takes for the
 # unit of p and for "error" stands in its introduction, which cannot move a bound.
 BOUNDS = {
@@ -57,7 +45,7 @@ def state_of(columns, ended, broken=False):
     - "blow-up": more energy came from nothing than the run had to release ("gain" > 1), or a number is not finite (`broken`)
     - "J out of bounds": before that, V/V_0 of a soil point left its bounds, in a row of statistics, in a picture, or in the message
       that the run stopped with (`volume_ratios`)
-    - "blow-up", too: the program stopped for another reason, the time limit included (`cause` tells which)
+    - "blow-up", too: the program stopped for another reason, the time limit included
     - "energy gain", "oscillating" (of p or p'; a number that is not finite oscillates), "wrong" ("error"): the column is above its bound
     - "stable": none of these
     """
@@ -78,7 +66,7 @@ def share_of_defaults(rows):
     standing = defaults.where(lambda row: row["state"] != "blow-up")
 
     def worst(name):
-        return max((row[name] for row in standing if math.isfinite(row.get(name, math.nan))), default=-math.inf)
+        return max(finite(standing, name), default=-math.inf)
 
     def told(name):
         return f"{name} up to {worst(name):{'.0f' if worst(name) > 100 else '.2g'}}, bound {BOUNDS[name]:g}"
@@ -91,9 +79,11 @@ def share_of_defaults(rows):
         names = [name for columns in DECIDING.values() for name in columns]
         others = ["nearest to its bound: " + told(max(names, key=lambda name: worst(name) / BOUNDS[name]))]
     listed = ", ".join(others)
-    within = defaults.where(lambda row: row.get("step/limit", 1.) <= 1)
-    text = f"{stable_of(defaults)} default cells are stable. {listed[0].upper()}{listed[1:]}."
-    return text + (f" Up to the limit time step, {stable_of(within)} are." if within.n < defaults.n else "")
+    return f"{stable_of(defaults)} default cells are stable. {listed[0].upper()}{listed[1:]}."
+
+
+def finite(rows, name):
+    return [row[name] for row in rows if math.isfinite(row.get(name, math.nan))]
 
 
 def stable_of(rows):
@@ -107,20 +97,11 @@ def map_table(rows):
     groups = {name: chosen for name, chosen in groups.items() if chosen}
 
     def worst(chosen, name):
-        values = [row[name] for row in chosen if math.isfinite(row.get(name, math.nan))]
+        values = finite(chosen, name)
         return f"{(min if name == 'smallest J' else max)(values):.2g}" if values else "-"
     return [("quantity, worst of all cells", *groups, "bound"), ("stable cells", *map(stable_of, groups.values()), "all"),
             *((name, *(worst(chosen, name) for chosen in groups.values()), f"{BOUNDS[name]:g}")
               for name in BOUNDS if name in rows[0])]
-
-
-def cause(run):
-    """Why a run stopped, in short; "-" for one that ended."""
-    if run.ended:
-        return "-"
-    if run.exit_code == 124:
-        return "time limit"
-    return next((short for message, short in CAUSES.items() if message in run.log), f"exit code {run.exit_code}")
 
 
 def has_rows(run):

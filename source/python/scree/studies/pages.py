@@ -5,16 +5,17 @@ doc/studies/intro has the text of each section, NAME.md, and that of the bounds.
 
 import math
 import re
+import textwrap
 from typing import NamedTuple
 
 from scree.studies import words
-from scree.studies.charts import StabilityMap
+from scree.studies.charts import Curves, StabilityMap
 from scree.studies.measures import BOUNDS, map_table, share_of_defaults
 
 LINE = 120
 BOUNDS_TEXT = words.FOLDER / "bounds.md"
 SENTENCES = re.compile(r"(?<=[.!?])(?<!al\.)\s+(?=[A-Z0-9`*(\[\"]|p )")
-MARKUP = re.compile(r"([-+*>#|]|#+|\d+[.)])$")  # a word that would begin a list, a heading or a table at the start of a line
+MARKUP = re.compile(r" ([-+*>#|]|#+|\d+[.)])(?=\s|$)")  # a word that would begin a list, a heading or a table at the start of a line
 
 
 class Topic(NamedTuple):
@@ -25,7 +26,7 @@ class Topic(NamedTuple):
 
 # Pages in the order of the list.
 TOPICS = {
-    "run_out": Topic("Run-out of dry soil", ("run_out_limits", "cylinders", "run_out", "run_out_causes", "dry_slope", "transfer_rate", "granular_dam_break")),
+    "run_out": Topic("Run-out of dry soil", ("run_out_limits", "cylinders", "run_out", "dry_slope", "transfer_rate", "granular_dam_break")),
     "safety": Topic("Factor of safety", ("strength_reduction",)),
     "saturated_slopes": Topic("Saturated slopes", ("saturated_run_out_limits", "saturated_slope", "submerged_slope")),
     "drained_or_coupled": Topic("Drained, coupled or undrained", ("regimes", "point_sets", "single_point")),
@@ -34,22 +35,17 @@ TOPICS = {
     "impact_and_gaps": Topic("Impact and gaps", ("impact", "air_gap")),
     "infiltration": Topic("Infiltration", ("wetting_front",)),
     "waves_and_convergence": Topic("Waves and convergence", ("bar", "manufactured")),
-    "soil_models": Topic("Soil models and quality of the stress", ("contours", "nor_sand_density", "low_stress", "shear_bands")),
+    "soil_models": Topic("Soil models and quality of the stress", ("contours", "low_stress", "shear_bands")),
     "experiments": Topic("Experiments", ("aluminium_bars", "martin_moyce")),
-    "cost": Topic("Cost", ("advice", "size", "scaling", "peers")),
+    "cost": Topic("Cost", ("advice", "scaling", "peers")),
 }
 
 
 def filled(sentence, first="", indent=""):
     """The sentence on lines of at most LINE characters: `first` before the first of them, `indent` before the others."""
-    lines, line = [], []
-    for word in sentence.split():
-        if line and len(indent if lines else first) + len(" ".join([*line, word])) > LINE:
-            carried = [line.pop()] if MARKUP.match(word) else []
-            lines.append((indent if lines else first) + " ".join(line))
-            line = carried
-        line.append(word)
-    return [*lines, (indent if lines else first) + " ".join(line)]
+    kept = MARKUP.sub("\0\\1", sentence)
+    lines = textwrap.wrap(kept, LINE, initial_indent=first, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+    return [line.replace("\0", " ") for line in lines]
 
 
 def sentences(text, first="", indent=""):
@@ -93,14 +89,6 @@ def n_held(claims):
     return f"{sum(claim.holds for claim in claims)} of {len(claims)}"
 
 
-def comparison(studies):
-    """The lines of the table of experiments of these studies."""
-    lines = [line for study, rows, _ in studies for line in (study.compared(rows) if study.compared else ())]
-    return table([("quantity", "unit", "measured", "computed", "deviation"),
-                  *((quantity, unit, f"{measured:.3g}", f"{computed:.3g}", f"{100 * (computed / measured - 1):+.0f} %")
-                    for quantity, unit, measured, computed in lines)]) if lines else []
-
-
 def slug(title):
     """The anchor of a heading, as GitHub and MyST name it."""
     return re.sub(r"\s", "-", re.sub(r"[^\w\s-]", "", title.lower()))
@@ -121,7 +109,7 @@ def section_text(name, study, rows, claims):
     lines = [f"## {study.text.title}", ""]
     for text in results(study, rows, claims):
         lines += sentences(text, "- ", "  ")
-    lines += ["", f"![{study.text.title}]({name}.svg)", "", study.text.introduction]
+    lines += ["", *([f"![{study.text.title}]({name}.svg)", ""] if isinstance(study.chart, Curves) else []), study.text.introduction]
     found = study.table(rows) if study.table else map_table(rows) if isinstance(study.chart, StabilityMap) else None
     lines += ["", *table(found)] if found else []
     missed = misses(study, rows, claims)
@@ -142,8 +130,6 @@ def page_text(topic, studies):
              *table([("study", "question", "what to do", "claims that hold"),
                      *((f"[{study.text.title}](#{slug(study.text.title)})", study.text.question, study.text.advice, n_held(claims))
                        for study, _, claims in (studies[name] for name in names))])]
-    compared = comparison(studies[name] for name in names)
-    lines += ["", *compared] if compared else []
     return "\n".join([*lines, "", *("\n".join(section_text(name, *studies[name]) for name in names).splitlines())]) + "\n"
 
 
@@ -167,7 +153,6 @@ def index_text(studies):
              "The pages have charts, tables and conditions.",
              "`build/scree-study NAME` repeats one; `build/scree-study all --page` writes all pages again from their tables.",
              "What follows for a case: [choices](../../choosing.md), with the number of points; [defaults](../defaults.md).", "",
-             *table([("study", "what to do", "claims that hold"), *((link(name), studies[name][0].text.advice, n_held(studies[name][2])) for name in names)]), "",
-             *comparison(studies.values()), *section("Claims that do not hold", FAILED),
-             *section("Maps with default cells that are not stable", UNSTABLE)]
+             *table([("study", "what to do", "claims that hold"), *((link(name), studies[name][0].text.advice, n_held(studies[name][2])) for name in names)]),
+             *section("Claims that do not hold", FAILED), *section("Maps with default cells that are not stable", UNSTABLE)]
     return "\n".join([*lines, "", "## Bounds of the stability maps", "", BOUNDS_TEXT.read_text(encoding="utf-8").rstrip().format_map(BOUNDS)]) + "\n"

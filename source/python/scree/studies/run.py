@@ -9,7 +9,6 @@ chart and the page of its topic go to doc/studies/pages; with --quick, a short v
 """
 
 import concurrent.futures
-import csv
 import hashlib
 import itertools
 import json
@@ -20,6 +19,7 @@ import subprocess
 import tempfile
 
 from scree.command import ROOT, Command, program
+from scree.results import read_rows, write_rows
 from scree.studies.charts import StabilityMap
 from scree.studies.pages import TOPICS, index_text, page_text, topic_of
 from scree.studies.rows import Rows
@@ -66,7 +66,7 @@ def make_run(study, variant, folder, arguments):
     launcher = ["mpirun", "-np", str(variant.ranks)] if variant.ranks > 1 else []
     if variant.ranks > (os.cpu_count() or 1):
         launcher += ["--oversubscribe", "--mca", "mpi_yield_when_idle", "1"]
-    command = ["timeout", f"{arguments.time_limit:g}", *launcher, arguments.program, *study.options, prm]
+    command = ["timeout", "7200", *launcher, arguments.program, *study.options, prm]
     # Runs of Open MPI side by side share folders, which the last one to end removes under one that begins: each has its own.
     with open(screen, "w", encoding="utf-8") as output, tempfile.TemporaryDirectory(prefix="scree_", ignore_cleanup_errors=True) as temporary:
         environment["TMPDIR"] = temporary
@@ -125,16 +125,12 @@ def _value(word):
 
 def write_table(rows, table):
     names = list(dict.fromkeys(name for row in rows for name in row))
-    with open(table, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, fieldnames=names, restval="nan", lineterminator="\n")
-        writer.writeheader()
-        writer.writerows({name: _text(value) for name, value in row.items()} for row in rows)
+    write_rows(table, names, ([_text(row.get(name, "nan")) for name in names] for row in rows))
 
 
 def read_table(table):
     """The rows of a table: numbers are floats, True and False are themselves, the rest is text."""
-    with open(table, newline="", encoding="utf-8") as file:
-        return Rows({name: _value(word) for name, word in row.items()} for row in csv.DictReader(file))
+    return Rows({name: _value(word) for name, word in row.items()} for row in read_rows(table))
 
 
 def row_of(study, run):
@@ -164,7 +160,6 @@ def finish(name, study, folder, rows=None):
     folder.mkdir(parents=True, exist_ok=True)
     table = folder / f"{name}.csv"
     if rows is not None:
-        study.chart.complete(rows)
         write_table(rows, table)
     rows = read_table(table)
     claims = study.verdict(rows)
@@ -227,5 +222,4 @@ def main():
     parser.add_argument("--program", type=pathlib.Path, default=program("scree"), help="default: scree of the build, or of the PATH")
     parser.add_argument("--results", type=pathlib.Path, default=ROOT / "results" / "studies", help="folder of the runs; default results/studies")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs at a time where times are not compared; default %(default)d")
-    parser.add_argument("--time-limit", type=float, default=7200., help="longest time of a run, s; default %(default)g")
     parser.run(run_studies)

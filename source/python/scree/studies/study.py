@@ -3,7 +3,6 @@
 to write one."""
 
 import atexit
-import csv
 import dataclasses
 import functools
 import importlib
@@ -53,8 +52,7 @@ def product(*axes):
 
 def reference_rows(name):
     """The rows of a table of doc/studies/reference, {column: text}."""
-    with open(ROOT / "doc" / "studies" / "reference" / f"{name}.csv", encoding="utf-8") as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+    return results.read_rows(ROOT / "doc" / "studies" / "reference" / f"{name}.csv")
 
 
 @functools.cache
@@ -74,7 +72,6 @@ class Study:
     measure(run): the columns of a run, {column: value};
     verdict(rows, claim): the claims on the Rows as the table holds them, by claim(name, holds, values of its sentence);
     table(rows): the table of its section, the first row is the head; a map has one without it;
-    compared(rows): lines of the table of experiments, (quantity, unit, measured, computed); most have none.
 
     entries: common to all variants. reference: entries of a run made first, `run.reference` in the measure;
     quick_reference: that of the short version, if it is another one. quick(labels): whether a variant belongs to the
@@ -99,14 +96,13 @@ class Study:
     text: Text | None = None  # this and the following are set by study_of
     measure: Callable | None = None
     verdict: Callable | None = None
-    compared: Callable | None = None
 
 
 def study_of(name):
     """The study of a module of scree.studies.cases, with its words and functions; its verdict(rows) has a `claim`."""
     module, text = importlib.import_module(f"scree.studies.cases.{name}"), Text.of(name)
     return dataclasses.replace(
-        module.STUDY, text=text, measure=module.measure, compared=getattr(module, "compared", None),
+        module.STUDY, text=text, measure=module.measure,
         verdict=lambda rows: module.verdict(rows, Claims(text.sentences)),
         table=module.STUDY.table or getattr(module, "table", None))
 

@@ -8,8 +8,7 @@ import subprocess
 import tomllib
 
 from scree import variants as prm_files
-from scree.studies.charts import Curves, tick_axis
-from scree.studies.study import ROOT, Run, Study, Variant
+from scree.studies import ROOT, Curves, Run, Study, Variant, tick_axis
 
 FACTOR = 1.5
 TURNS = 3

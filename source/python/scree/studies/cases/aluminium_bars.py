@@ -4,10 +4,7 @@
 import numpy as np
 
 from scree.pictures.tables import name_lines
-from scree.studies.charts import RunCurves
-from scree.studies.measures import mean_depth
-from scree.studies.study import Study, axis, product, reference_rows
-from scree.studies.words import tabled
+from scree.studies import RunCurves, Study, axis, mean_depth, product, reference_rows, tabled
 
 BAR = 1.5e-3  # m
 WIDTH = 0.01  # m, over which the depth is taken
@@ -49,9 +46,7 @@ def measure(run):
     heights = np.array([failure_height(points, place, run.labels["h"]) for place in failure[:, 0]])
     front = places[np.flatnonzero(depth(points, places) > BAR)[-1]]
     return {SURFACE: np.sqrt(np.mean(error**2)), LARGEST: np.max(np.abs(error)), FRONT: front, OVER: front / LAST,
-            TIP: x[int(0.995 * x.size)], FAILURE: np.sqrt(np.mean((heights - failure[:, 1])**2)),
-            "kinetic over released energy": run.statistics("Kinetic energy (J)")[-1]
-            / np.ptp(run.statistics("Potential energy (J)"))}
+            TIP: x[int(0.995 * x.size)], FAILURE: np.sqrt(np.mean((heights - failure[:, 1])**2))}
 
 
 def base_entries(base):
@@ -79,11 +74,6 @@ table = tabled({"base": "{[base]}", "h (mm)": "{[h]:g mm}", "front (m)": "{[fron
                 "front, 99.5 % of the mass (m)": "{[front 99.5 % (m)]:.3f}",
                 "surface, RMS (mm)": "{[surface, rms (m)]:.1f mm}",
                 "failure line, RMS (mm)": "{[failure line, rms (m)]:.1f mm}"}, by="base")
-
-
-def compared(rows):
-    return [(f"aluminium bars, front, base {row['base']}, h = {1e3 * row['h']:g} mm", "m", LAST, row[FRONT])
-            for row in rows.where(h=rows.smallest["h"])]
 
 
 def curves(run):

@@ -4,9 +4,7 @@ import numpy as np
 
 from scree import results
 from scree.pictures import fields, plane
-from scree.studies.charts import Pictures
-from scree.studies.study import Study, axis, product
-from scree.studies.words import filled
+from scree.studies import Pictures, Study, axis, filled, product
 
 VOLUMES = {"dense": 1.629, "loose": 1.736}
 TITLES = {"none": "no stabilisation", "standard": "F-bar", "modified": "modified F-bar",

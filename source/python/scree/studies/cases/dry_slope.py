@@ -5,12 +5,9 @@ import math
 
 import numpy as np
 
-from scree.studies.charts import WorkPrecision
-from scree.studies.measures import energy_gain, lost_energy
+from scree.studies import Lookup, Study, WorkPrecision, energy_gain, lost_energy, transfer
 from scree.studies.precision import (DEFAULTS, LimitFit, at_finest, beside_defaults, costs, curve, methods, ratios,
                                      table, variants)
-from scree.studies.rows import Lookup
-from scree.studies.study import Study, transfer
 
 METHODS = methods("linear", "no F-bar", "standard F-bar", "2 x 2 points", "3 x 3 points", "PIC rate 0", "PIC rate 5",
                   "PIC rate 20",

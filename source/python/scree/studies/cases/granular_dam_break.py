@@ -6,10 +6,7 @@ import math
 import numpy as np
 
 from scree import closed_forms
-from scree.studies.charts import RunCurves
-from scree.studies.measures import mean_depth
-from scree.studies.study import Study, axis, product
-from scree.studies.words import filled, tabled
+from scree.studies import RunCurves, Study, axis, mean_depth, product, tabled
 
 LAYER, SLOPE, ORIGIN = 0.2, math.radians(20), np.array([5, 3.35])  # m, -, m
 TIMES = (0.4, 0.8, 1.2)  # s
@@ -46,9 +43,8 @@ def verdict(rows, claim):
     for bed, (name, start) in WORDS.items():
         group = rows.where(bed=bed)
         errors = np.array([[row[error] for error in ERRORS] for row in group])
-        sizes = "; ".join(filled("cells of {:g} m: {:.3f}", row["h"], list(of)) for row, of in zip(group, errors))
         claims += [claim("depth", errors[:, -1].max() < BOUND[bed] and np.all(np.diff(errors) < 0), tabled=True,
-                         bed=name, sizes=sizes),
+                         bed=name),
                    claim("tip", max(map(abs, group.values[BEHIND])) < 0.1, worst=bed == FRICTION, tabled=True,
                          bed=start, behind={f"h = {row['h']:g} m": row[BEHIND] for row in group})]
     return claims

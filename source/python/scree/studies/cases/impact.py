@@ -2,10 +2,7 @@
 """The text of its section: doc/studies/intro/impact.md."""
 import numpy as np
 
-from scree.studies.charts import StabilityMap
-from scree.studies.measures import BOUNDS, classify, roughness
-from scree.studies.rows import Span
-from scree.studies.study import Study, axis, product
+from scree.studies import BOUNDS, Span, StabilityMap, Study, axis, classify, product, roughness
 
 HEAD = 1000 * 9.81 * 0.5  # Pa
 

@@ -7,10 +7,9 @@ import math
 import numpy as np
 
 from scree import closed_forms
-from scree.studies.charts import WorkPrecision
+from scree.studies import Study, WorkPrecision
 from scree.studies.precision import (DEFAULTS, at_finest, beside_defaults, costs, failed, methods, order, ratios, table,
                                      variants)
-from scree.studies.study import Study
 
 MUD = closed_forms.Mud(1., closed_forms.oedometric_modulus(2e4, 0.2), 0.5, 1e-2)
 TIMES = [MUD.time(factor) for factor in (0.25, 0.5, 1.)]

@@ -4,9 +4,7 @@ import math
 
 import numpy as np
 
-from scree.studies.charts import StabilityMap
-from scree.studies.measures import classify, mean_oscillation
-from scree.studies.study import Study, Variant
+from scree.studies import StabilityMap, Study, Variant, classify, mean_oscillation
 
 CASES = {("Nor-Sand", "dry"): "columns/column_loose", ("Mohr-Coulomb", "dry"): "columns/mohr_coulomb_collapse",
          ("Nor-Sand", "saturated"): "slopes/slope_saturated_loose",
@@ -27,11 +25,7 @@ def variant(law, pores, part, height):
 
 
 def measure(run):
-    height = run.labels["height"]
-    suction = -min(run.columns.get("Smallest p (Pa)", [0.]))  # dry soil has none
     return {**classify(run, {"oscillation of p'": mean_oscillation(run, "Stress oscillation (-)")}),
-            "front/height": run.statistics("Front 99 % (m)")[-1] / height,
-            "suction/weight": suction / (1000 * 9.81 * run.labels["gravity"] * height),
             "unresolved": run.statistics("Unresolved")[-1]}
 
 

@@ -4,8 +4,7 @@
 import math
 import subprocess
 
-from scree.studies.charts import Curves, legend_above, tick_axis
-from scree.studies.study import Study, Variant, compiled, reference_rows
+from scree.studies import NoChart, Study, Variant, compiled, reference_rows
 
 NS = "ns per point and step"
 SCENES = {"elastic 2D": "elastic_2d", "elastic 3D": "elastic_3d", "Mohr-Coulomb 3D": "mohr_coulomb_column_3d",
@@ -56,24 +55,7 @@ def verdict(rows, claim):
             claim("slow" if slow else "fast", not slow, quick=False)]
 
 
-def draw(figure, rows):
-    axes = figure.subplots()
-    for line, row in enumerate(rows):
-        times = {"bare kernel": (row["kernel ns"], "0.6"), "Scree": (row[NS], "C3")}
-        if fastest := fastest_peer(row["scene"]):
-            times["fastest other code"] = fastest, "C0"
-        for offset, (name, (ns, colour)) in enumerate(times.items()):
-            axes.barh(line + 0.27 * (offset - 1), ns, 0.25, color=colour, label=name if line == 0 else None)
-            axes.text(1.06 * ns, line + 0.27 * (offset - 1), f"{ns:.0f}", va="center", fontsize=8)
-    axes.set_yticks(range(len(rows)), [row["scene"] for row in rows])
-    axes.invert_yaxis()
-    axes.grid(False, axis="y")
-    axes.set(xscale="log", xlabel="ns of one core per point and time step", xlim=(10, 5000))
-    tick_axis(axes.xaxis)
-    legend_above(figure, axes, 3)
-
-
 STUDY = Study(
     "prm/benchmarks/elastic_2d.prm",
     variants=[Variant({"scene": scene}, {}, f"prm/benchmarks/{name}.prm") for scene, name in SCENES.items()],
-    quick=lambda labels: labels["scene"] == "elastic 2D", chart=Curves(draw, 4.6, timed=True))
+    quick=lambda labels: labels["scene"] == "elastic 2D", chart=NoChart(timed=True))

@@ -7,34 +7,16 @@ import numpy as np
 
 from scree import results
 from scree.pictures import fields, plane
-from scree.studies.charts import Pictures
-from scree.studies.rows import Span
-from scree.studies.study import Study, Variant, axis, product
-from scree.studies.words import tabled
+from scree.studies import Pictures, Span, Study, Variant, axis, product, tabled
 
 SOILS = {"dense": "slopes/slope_saturated_dense", "loose": "slopes/slope_saturated_loose",
          "Mohr-Coulomb": "slopes/slope_saturated_mohr_coulomb"}
 FRONT, OSCILLATION, WATER = "front 99.5 % (m)", "p oscillation", "change of water mass"
 SHOWN = (1., 4., 12.)  # s
-CELL = 0.05  # m, of the cases
 
 
 def soil(name):
     return Variant({"soil": name}, {}, f"prm/{SOILS[name]}.prm")
-
-
-def deposit_angle(soil):
-    """Slope of the deposit, degrees: a line through its surface from 20 to 80 % of its height; nan without one.
-
-    The surface is the highest point in each strip of a cell's width; a strip counts down the slope from the crest on.
-    """
-    strips = np.floor(soil.positions[:, 0] / CELL).astype(int)
-    tops = {strip: np.max(soil.positions[strips == strip, 1]) for strip in np.unique(strips)}
-    x = (np.array(sorted(tops)) + 0.5) * CELL
-    y = np.array([tops[strip] for strip in sorted(tops)])
-    crest = np.max(np.flatnonzero(y >= 0.8 * np.max(y)))
-    on_slope = (np.arange(len(x)) >= crest) & (y > 0.2 * np.max(y))
-    return math.degrees(math.atan(-np.polyfit(x[on_slope], y[on_slope], 1)[0])) if np.sum(on_slope) >= 3 else math.nan
 
 
 def pressure_share(run):
@@ -50,12 +32,8 @@ def measure(run):
     water = run.statistics("Water mass (kg)") + run.statistics("Water lost (kg)")
     oscillation = run.statistics("p oscillation (-)")
     return {"reached (s)": time[-1], "pressure share (%)": pressure_share(run),
-            "front 90 % (m)": run.statistics("Front 90 % (m)")[-1],
             FRONT: run.statistics("Front 99.5 % (m)")[-1],
-            "water front 99.5 % (m)": run.statistics("Water front 99.5 % (m)")[-1],
-            "angle (degrees)": deposit_angle(run.points()) if run.labels["end"] > 1 else math.nan,
             OSCILLATION: np.trapz(oscillation, time) / np.ptp(time),
-            "largest suction (kPa)": -1e-3 * np.nanmin(run.statistics("Smallest p (Pa)")),
             WATER: water[-1] / water[0] - 1,
             "numerical dissipation (J)": run.statistics("Numerical dissipation (J)")[-1],
             "J released": potential[0] - potential[-1]}
@@ -84,24 +62,19 @@ def verdict(rows, claim):
     shares = list(filter(math.isfinite, whole.values["pressure share (%)"]))
     fluid, stopped = pair(rows, "Mohr-Coulomb", True)
 
-    def each(value, form):
-        return " and ".join(f"{value(double, single):{form}} ({name})" for name, (double, single) in sand.items())
-
-    def percent(value, form):
-        return " and ".join(f"{100 * value(double, single):{form}} % ({name})"
-                            for name, (double, single) in sand.items())
+    def each(value):
+        return {name: value(*both) for name, both in sand.items()}
 
     return claims + [
         claim("pressure", max(shares) < 30, shares=Span.of(shares)),
         claim("stability", all(row["ended"] for both in sand.values() for row in both),
-              oscillation=each(lambda double, single: single[OSCILLATION] / double[OSCILLATION], ".1f")),
+              oscillation=each(lambda double, single: single[OSCILLATION] / double[OSCILLATION])),
         claim("front", all(single[FRONT] > double[FRONT] and single[WATER] > 0.01 and abs(double[WATER]) < 1e-9
                            for double, single in sand.values()),
-              farther=percent(lambda double, single: single[FRONT] / double[FRONT] - 1, ".1f"),
-              water=percent(lambda double, single: single[WATER], "+.1f")),
+              farther=each(lambda double, single: single[FRONT] / double[FRONT] - 1),
+              water=each(lambda double, single: single[WATER])),
         claim("dissipation", all(double["numerical dissipation (J)"] > 0 for double, _ in sand.values()),
-              double=percent(lambda double, single: taken(double), ".0f"),
-              single=percent(lambda double, single: taken(single), ".0f")),
+              double=each(lambda double, single: taken(double)), single=each(lambda double, single: taken(single))),
         claim("failure", fluid["ended"] and not stopped["ended"], worst=True, stopped=stopped,
               oscillation=stopped[OSCILLATION] / fluid[OSCILLATION])]
 

@@ -5,9 +5,7 @@ import math
 import numpy as np
 
 from scree.closed_forms import oedometric_modulus
-from scree.studies.charts import Curves, tick_axis
-from scree.studies.rows import Span
-from scree.studies.study import Study, Variant, transfer
+from scree.studies import Curves, Span, Study, Variant, tick_axis, transfer
 
 GRAVITY, WATER, GRAINS, POROSITY = 9.81, 1000., 2650., 0.4
 POISSON, FRICTION, K0 = 0.3, 30., 0.5
@@ -211,11 +209,10 @@ def verdict(rows, claim):
         claims.append(claim("submerged", min(wet) > ENOUGH, quick=False, least=min(wet), limits=span(under)))
     total = [(row, undrained(rows, row)) for row in rows.where(model="total stress")]
     if total:
-        off = {f"{row['cells']:g}": np.max(np.abs(values(row) / values(coupled) - 1)) for row, coupled in total}
+        off = {f"{row['cells']:g} cells": np.max(np.abs(values(row) / values(coupled) - 1)) for row, coupled in total}
         finest, coupled = total[-1]
-        claims.append(claim("total stress", max(off.values()) < 0.16, quick=False,
-                            off=" and ".join(f"{100 * part:.0f} %" for part in off.values()),
-                            cells=" and ".join(off), cost=finest["core-seconds"] / coupled["core-seconds"]))
+        claims.append(claim("total stress", max(off.values()) < 0.16, quick=False, off=off,
+                            cost=finest["core-seconds"] / coupled["core-seconds"]))
     return claims
 
 

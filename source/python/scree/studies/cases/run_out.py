@@ -6,11 +6,7 @@ import math
 import numpy as np
 
 from scree.pictures.tables import name_lines
-from scree.studies.charts import Curves
-from scree.studies.limits import Limit
-from scree.studies.measures import lost_energy, mean_depth
-from scree.studies.study import Study, Variant
-from scree.studies.words import filled
+from scree.studies import Curves, Limit, Study, Variant, filled, lost_energy, whole_cells
 
 FIXED, FRICTION, LOW_PIC = "fixed", "friction", "friction, PIC rate 1/s"
 TREATMENTS = {FIXED: {"Boundaries/Bottom": "fixed"}, FRICTION: {"Boundaries/Bottom": "friction 22.3"},
@@ -28,7 +24,7 @@ CELLS_PER_METRE = {**{(COLUMN, soil, treatment): FOUR for treatment in TREATMENT
                    (SLOPE, "loose", LOW_PIC): FOUR, (SATURATED, "loose", FRICTION): WET,
                    (SATURATED, "dense", FRICTION): WET, (PERMEABLE, "dense", FRICTION): WET}
 RECOMMENDED = {COLUMN: LOW_PIC, SLOPE: LOW_PIC, SATURATED: FRICTION, PERMEABLE: FRICTION}
-QUANTILES = (80, 90, 95, 99, 99.5)
+QUANTILES = (90, 99)
 FRONT, TIP = "front 90 % (m)", "front 99 % (m)"
 
 
@@ -40,28 +36,16 @@ def front(points, percent):
     return np.interp(percent / 100 * mass[-1], mass, x[order])
 
 
-def front_of_depth(points, depth, width=0.1):
-    """Largest x around which the soil, averaged over `width`, is `depth` deep, m."""
-    x = points.positions[:, 0]
-    centres = np.arange(width / 2, x.max() + width, width / 20)
-    depths = mean_depth(x, points.arrays["volume"], centres - width / 2, centres + width / 2)
-    return centres[np.flatnonzero(depths >= depth)[-1]]
-
-
 def measure(run):
     points = run.points()
     return {**{f"front {percent:g} % (m)": front(points, percent) for percent in QUANTILES},
-            "front by depth 0.05 m (m)": front_of_depth(points, 0.05),
-            "centre of mass (m)": np.average(points.positions[:, 0], weights=points.arrays["mass"]),
             "energy lost numerically (-)": lost_energy(run)}
 
 
 def variant(scene, soil, treatment, cells_per_metre):
     points = 3 if scene == COLUMN or (scene, soil, treatment) == (SLOPE, "dense", LOW_PIC) else 2
-    box = ", ".join(f"{math.ceil(round(length * cells_per_metre, 6)) / cells_per_metre:.12g}"
-                    for length in BOXES[scene])
     end = TIMES[scene][soil]
-    entries = {"Mesh/Cell size": 1 / cells_per_metre, "Mesh/Upper corner": box, **TREATMENTS[treatment],
+    entries = {**whole_cells(1 / cells_per_metre, BOXES[scene]), **TREATMENTS[treatment],
                "End time": end, "Output/Interval": end if scene in (COLUMN, SLOPE) else 1., "Output/Graphics": "points",
                "Soil/Points per cell": points}
     if scene in (SATURATED, PERMEABLE):
@@ -76,17 +60,6 @@ def curves(rows):
     return rows.grouped("scene", "soil", "treatment")
 
 
-def fronts(limit):
-    return filled("{:.2f}", list(limit.values))
-
-
-def course(limit):
-    """The fronts of all sizes and what follows from them."""
-    order = f"order {limit.order:.1f}" if len(limit.h) > 2 and 0.51 < limit.order < 2.99 else "order not determined"
-    return filled("{} m with cells of {:.3g} m. Last change {:+.1f %}, {}, {:.2f} m at h = 0", fronts(limit),
-                  list(limit.h), limit.last_change, order, limit)
-
-
 def verdict(rows, claim):
     groups = curves(rows)
     limits = {key: Limit(group, FRONT) for key, group in groups.items()}
@@ -95,21 +68,15 @@ def verdict(rows, claim):
     worst, worst_tip = (max(abs(limit.last_change) for limit in of.values()) for of in (best, tips))
     spread, spread_tip = (max(limit.spread for limit in of.values()) for of in (best, tips))
 
-    def values(key):
-        scene, soil, treatment = key
-        return {"scene": f"{scene.capitalize()}, {soil}, {treatment}", "course": course(limits[key]),
-                "limit": limits[key]}
-
     claim = claim.shared(worst_front=worst, worst_tip=worst_tip, spread=spread, spread_tip=spread_tip)
     claims = [claim("front", worst < 0.02, quick=False)]
-    claims += [claim("recommended", abs(limit.last_change) < 0.02, quick=False, tabled=True, tip=tips[key],
-                     tips=fronts(tips[key]), **values(key))
-               for key, limit in best.items()]
+    claims += [claim("recommended", abs(limit.last_change) < 0.02, quick=False, tabled=True, limit=limit,
+                     scene=", ".join(key)) for key, limit in best.items()]
     for (scene, soil, treatment), limit in limits.items():
         if treatment == FIXED:
             other = limits[scene, soil, RECOMMENDED[scene]]
-            claims.append(claim("fixed", limit.missing > 1.5 * other.missing, tabled=True, other=other,
-                                **values((scene, soil, treatment))))
+            claims.append(claim("fixed", limit.missing > 1.5 * other.missing, tabled=True, limit=limit, other=other,
+                                scene=f"{scene}, {soil}"))
     dry, wet = (max((abs(tip.last_change)
                      for (scene, _, _), tip in tips.items() if (scene in (COLUMN, SLOPE)) == is_dry), default=math.nan)
                 for is_dry in (True, False))
@@ -123,8 +90,8 @@ def table(rows):
     for (scene, soil, treatment), group in sorted(groups.items(), key=lambda item: item[0][2] == FIXED):
         limit, tip = Limit(group, FRONT), Limit(group, TIP)
         lines.append((f"{scene}, {soil}", "fixed" if treatment == FIXED else "friction", f"{limit.h[-1]:.3g}",
-                      fronts(limit),
-                      f"{100 * limit.last_change:+.1f} %", f"{limit:.2f}", f"{100 * tip.last_change:+.1f} %"))
+                      filled("{:.2f}", list(limit.values)), f"{100 * limit.last_change:+.1f} %", f"{limit:.2f}",
+                      f"{100 * tip.last_change:+.1f} %"))
     return lines
 
 

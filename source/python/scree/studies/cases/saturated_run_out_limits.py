@@ -4,11 +4,8 @@
 import numpy as np
 
 from scree.pictures.tables import name_lines
-from scree.studies.charts import Curves
-from scree.studies.limits import HEIGHT, MASS, TIP, TRANSFERS, Limit, apart, depth, front_of_depth, halving_of
-from scree.studies.measures import lost_energy
-from scree.studies.rows import Rows
-from scree.studies.study import Study, Variant
+from scree.studies import (HEIGHT, MASS, TIP, TRANSFERS, Curves, Limit, Rows, Study, Variant, apart, depth,
+                           front_of_depth, halving_of, lost_energy, whole_cells)
 
 COLUMN, SLOPE = "column", "slope"
 FIXED, FRICTION = "fixed", "friction"
@@ -21,10 +18,8 @@ FRONT, LAST = "front 0.02 H", "last point (m)"
 
 
 def variant(scene, base, transfer, cells):
-    size = HEIGHTS[scene] / cells
-    corner = ", ".join(f"{np.ceil(round(length / size, 6)) * size:.12g}" for length in BOXES[scene])
     return Variant({"scene": scene, "base": base, "transfer": transfer, "cells": cells},
-                   {**TRANSFERS[transfer], "Mesh/Cell size": f"{size:.12g}", "Mesh/Upper corner": corner,
+                   {**TRANSFERS[transfer], **whole_cells(HEIGHTS[scene] / cells, BOXES[scene]),
                     "Boundaries/Bottom": BASES[scene, base],
                     "Soil/Points per cell": 3, "Water/Points per cell": 3, "Output/Graphics": "points",
                     "Output/Interval": 0.5, "End time": 4 if scene == COLUMN else 5}, FILES[scene])
@@ -66,12 +61,10 @@ def verdict(rows, claim):
             continue
         name = {"scene": scene.capitalize(), "base": base}
         changes = {transfer: halving_of(group, TIP, 20) for transfer, group in of.items()}
-        told = ", ".join(f"{transfer} {100 * change:+.1f} %" for transfer, change in changes.items())
-        claims.append(claim("halving", abs(changes["TPIC"]) < 0.03, quick=False, changes=told, **name))
+        claims.append(claim("halving", abs(changes["TPIC"]) < 0.03, quick=False, changes=changes, **name))
         for quantity, percent in ((TIP, 99), (MASS, 90)):
             limits = {transfer: Limit(group, quantity) for transfer, group in of.items()}
-            told = ", ".join(f"{limit:.2f} m ({transfer})" for transfer, limit in limits.items())
-            claims.append(claim("transfers", apart(limits) < 0.03, quick=False, percent=percent, limits=told,
+            claims.append(claim("transfers", apart(limits) < 0.03, quick=False, percent=percent, limits=limits,
                                 apart=apart(limits), **name))
     last = max(rows, key=lambda row: row[LAST] / BOXES[row["scene"]][0])
     farthest = last[LAST] / BOXES[last["scene"]][0]

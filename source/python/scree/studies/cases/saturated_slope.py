@@ -5,12 +5,10 @@ import math
 
 import numpy as np
 
+from scree.studies import Lookup, Study, WorkPrecision
 from scree.studies.cases import dry_slope
-from scree.studies.charts import WorkPrecision
 from scree.studies.precision import (DEFAULTS, LimitFit, at_finest, beside_defaults, curve, methods, order, ratios,
                                      table, variants)
-from scree.studies.rows import Lookup
-from scree.studies.study import Study
 
 FLIP = {"Transfer/Method": "FLIP", "Transfer/PIC rate": 5}
 CANDIDATE = "FLIP, 3 x 3 points"

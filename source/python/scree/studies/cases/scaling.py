@@ -5,8 +5,7 @@ import math
 import re
 
 from scree.pictures.tables import name_lines
-from scree.studies.charts import Curves, tick_axis
-from scree.studies.study import Study, Variant, compiled, transfer
+from scree.studies import Curves, Study, Variant, compiled, tick_axis, transfer
 
 QUIET = {"Output/Interval": 100, "Output/Graphics": "none", "Output/Statistics interval": 100}
 SCENES = {"dry slope": ("prm/slopes/slope_dense.prm", (0.004, 0.012), {}),

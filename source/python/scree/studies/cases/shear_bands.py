@@ -3,8 +3,7 @@
 
 import numpy as np
 
-from scree.studies.charts import Curves
-from scree.studies.study import Study, Variant
+from scree.studies import NoChart, Study, Variant
 
 BIAXIAL, BANK = "biaxial test", "bank"
 LENGTHS = {BIAXIAL: 0.1, BANK: 0.5}  # m
@@ -87,20 +86,8 @@ def table(rows):
               for scene in (BIAXIAL, BANK) for with_length in (False, True) for row in group(rows, scene, with_length))]
 
 
-def draw(figure, rows):
-    scenes = [scene for scene in (BIAXIAL, BANK) if group(rows, scene, True)]
-    for axes, scene in zip(np.atleast_1d(figure.subplots(1, len(scenes))), scenes):
-        quantity = LOAD if scene == BIAXIAL else FRONT
-        for with_length, name in ((False, "without a length"), (True, f"l = {LENGTHS[scene]:g} m")):
-            of = group(rows, scene, with_length)
-            axes.plot(of.values["h"], of.values[quantity], f"C{int(with_length)}o-", markersize=4, label=name)
-        axes.set(xlabel="h (m)", ylabel=quantity.replace(", ", " (") + ")", title=scene, xlim=(0, None),
-                 ylim=(0, 1.25 * rows.where(scene=scene).largest[quantity]))
-        axes.legend()
-
-
 STUDY = Study(
     "prm/softening/biaxial.prm",
     variants=[variant(size, length) for scene, variant in ((BIAXIAL, biaxial), (BANK, bank))
               for length in (0., LENGTHS[scene]) for size in SIZES[scene] if length > 0 or size != 0.0125],
-    chart=Curves(draw), quick=lambda labels: labels["scene"] == BIAXIAL and labels["h"] > 0.04)
+    chart=NoChart(), quick=lambda labels: labels["scene"] == BIAXIAL and labels["h"] > 0.04)

@@ -5,10 +5,7 @@ import math
 
 import numpy as np
 
-from scree.studies import measures
-from scree.studies.charts import StabilityMap
-from scree.studies.study import Study, Variant, axis, product
-
+from scree.studies import StabilityMap, Study, Variant, axis, measures, product
 
 
 def point_sets(name):
@@ -22,10 +19,7 @@ def point_sets(name):
 def measure(run):
     mass = run.statistics("Water mass (kg)") + run.statistics("Water lost (kg)")
     made = float(np.max(np.abs(mass / mass[0] - 1)))
-    return {**measures.classify(run, {"oscillation of p": measures.pressure_scatter(run), "error": made}),
-            "largest porosity": float(np.max(run.statistics("Largest porosity (-)"))),
-            "front 90": float(run.statistics("Front 90 % (m)")[-1]),
-            "water lost": float(run.statistics("Water lost (kg)")[-1] / mass[0]), "cause": measures.cause(run)}
+    return measures.classify(run, {"oscillation of p": measures.pressure_scatter(run), "error": made})
 
 
 def verdict(rows, claim):

@@ -8,9 +8,7 @@ import numpy as np
 from scree.closed_forms import slip_circle_factor
 from scree.pictures.tables import name_lines
 from scree.results import read_table
-from scree.studies.charts import Curves
-from scree.studies.study import Study, Variant
-from scree.studies.words import tabled
+from scree.studies import Curves, Study, Variant
 
 HEIGHT, WEIGHT = 10., 2000 * 9.81 * 10  # m, and gamma H in Pa
 BANK = "example 1, other entries"
@@ -114,23 +112,14 @@ def verdict(rows, claim):
     return found
 
 
-TABLE = tabled({"slope": "{[slope]}", "H/h": "{[H/h]:.0f}", "reference": "{[reference]}", "factor": "{[exact]}",
-                "source": "{[source]}",
-                "computed": "{[factor]:.3f}", "deviation": "{[deviation]:+.1f %}"})
-
-
 def table(rows):
     default, others = bank_of(rows)
-    lines = []
-    for row in scenes_of(rows):
-        exact, source = REFERENCES[row["scene"]]
-        lines.append({**row, "slope": row["scene"], "reference": "computed" if source == CIRCLES else "published",
-                      "exact": f"{exact:.3g}", "source": source, "deviation": deviation(row)})
-    for row in others:
-        lines.append({**row, "slope": f"example 1, {row['entries']}", "reference": "default",
-                      "exact": f"{default['factor']:.3f}",
-                      "source": "this study", "deviation": row["factor"] / default["factor"] - 1})
-    return TABLE(lines)
+    lines = [(row, row["scene"], "computed" if REFERENCES[row["scene"]][1] == CIRCLES else "published", 3,
+              *REFERENCES[row["scene"]]) for row in scenes_of(rows)]
+    lines += [(row, f"example 1, {row['entries']}", "default", 4, default["factor"], "this study") for row in others]
+    return [("slope", "H/h", "reference", "factor", "source", "computed", "deviation"),
+            *((slope, f"{row['H/h']:.0f}", kind, f"{exact:.{digits}g}", source, f"{row['factor']:.3f}",
+               f"{100 * (row['factor'] / exact - 1):+.1f} %") for row, slope, kind, digits, exact, source in lines)]
 
 
 def draw(figure, rows):

@@ -5,9 +5,7 @@ import math
 
 import numpy as np
 
-from scree.studies import measures
-from scree.studies.charts import Curves, legend_above, tick_axis
-from scree.studies.study import Study, Variant, transfer
+from scree.studies import Curves, Study, Variant, measures, tick_axis, transfer
 
 FLIP, TPIC, CHOSEN = "FLIP, 1/s", "TPIC", "AFLIP, 5"
 FACTORS = (2, 5, 10)
@@ -82,33 +80,11 @@ def variants():
 def measure(run):
     dissipation, columns = run.statistics("Numerical dissipation (J)"), run.columns
     wave = 1000 * GRAVITY * 0.05**2 / 4 if run.labels["scene"] == "sloshing" else None
-    kinetic = run.statistics("Kinetic energy (J)")
 
     def mean(name):
         return float(np.mean(columns[name][1:])) if name in columns else math.nan
-
-    def last(name):
-        return float(columns[name][-1]) if name in columns else float(columns[f"Water {name[0].lower()}{name[1:]}"][-1])
     return {"dissipation": float(dissipation[-1] / (wave or measures.released_energy(run))),
-            "gain": measures.energy_gain(run, wave),
-            "p oscillation": mean("p oscillation (-)"), "stress oscillation": mean("Stress oscillation (-)"),
-            "volume error": mean("Volume error (-)"),
-            "amplitude lost a period": 1 - (max(kinetic[-41:]) / max(kinetic[:41]))**(1 / 8) if wave else math.nan,
-            "front 90 %": last("Front 90 % (m)"), "front 99 %": last("Front 99 % (m)")}
-
-
-def ratios(rows, transfer, others):
-    """Of each measure to the smallest one of the transfers `others(scene)`: {(scene, h, measure): ratio}."""
-    table = {(row["scene"], round(row["h"], 4), row["transfer"]): row for row in rows}
-    found = {}
-    for scene, h in dict.fromkeys(place[:2] for place in table):
-        if any((scene, h, name) not in table for name in (transfer, FLIP, TPIC)):
-            continue
-        for measure, least in MEASURES.items():
-            value, *compared = (max(abs(table[scene, h, name][measure]), least) for name in (transfer, *others(scene)))
-            if not math.isnan(table[scene, h, transfer][measure]):
-                found[scene, h, measure] = value / min(compared)
-    return found
+            "p oscillation": mean("p oscillation (-)"), "stress oscillation": mean("Stress oscillation (-)")}
 
 
 def before(scene):
@@ -117,12 +93,16 @@ def before(scene):
 
 
 def cost(rows, transfer, others):
-    """The worst ratio, and where it comes from."""
-    found = ratios(rows, transfer, others)
-    if not found:
-        return math.nan, "-"
-    place = max(found, key=found.get)
-    return found[place], f"{place[2]}, {place[0]}, h = {place[1]:.2g} m"
+    """The worst ratio of a measure to the smallest one of the transfers `others(scene)`, and where it comes from."""
+    found = {}
+    for (scene, h), group in rows.grouped("scene", "h").items():
+        of = {row["transfer"]: row for row in group}
+        for measure, least in MEASURES.items() if {transfer, FLIP, TPIC} <= of.keys() else ():
+            value, *compared = (max(abs(of[name][measure]), least) for name in (transfer, *others(scene)))
+            if not math.isnan(of[transfer][measure]):
+                found[f"{measure}, {scene}, h = {h:.2g} m"] = value / min(compared)
+    place = max(found, key=found.get, default="-")
+    return found.get(place, math.nan), place
 
 
 def penalties(rows):
@@ -175,7 +155,9 @@ def draw(figure, rows):
         axes.tick_params(axis="x", labelsize=9, rotation=60)
     plots[0].set_yticks(range(len(places)), [f"{scene}, h = {h:.2g} m" for scene, h in places], fontsize=9)
     plots[0].invert_yaxis()
-    legend_above(figure, plots[0], 3)
+    height = 0.32 / figure.get_figheight()
+    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - height))
+    figure.legend(*plots[0].get_legend_handles_labels(), loc="upper center", ncols=3, frameon=False, fontsize=9)
 
 
 STUDY = Study(
