@@ -108,6 +108,18 @@ def test_page():
         assert wanted in text, wanted
 
 
+def test_stages():
+    """Each stage has a heading, and what the log says of it; without stages there is no such section."""
+    stage = ("Stage       Lift 1, from t = 1 to 1 s\nRemoved     soil 100 kg/m\nSettling: 1.6 s, step 1000, unbalanced force over weight 0.01\n"
+             "Settled for 1.7 s in 1052 steps. Released.\nSettling: displacement while settling 0.1 m\nMotion      at rest at\n            the end\n")
+    text = report.page(folder(LOG + stage + stage.replace("Lift 1", "Lift <2>")))
+    assert "stages" in Tags(text).sections and "<h3>Lift &lt;2&gt;, from t = 1 to 1 s</h3>" in text
+    said = text[text.index("<h3>Lift 1"):text.index("<h3>Lift &lt;2")]
+    for wanted in ("<b>Removed</b> soil 100 kg/m", "<b>Settled</b> for 1.7 s", "<b>Settling</b> displacement while settling 0.1 m", "<b>Motion</b> at rest at the end"):
+        assert wanted in said, said
+    assert "step 1000" not in said, said
+
+
 def test_safety():
     """A folder of --safety alone, and the run folder around it, show the factor, its bracket and the trials."""
     run = folder(LOG)

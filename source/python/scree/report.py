@@ -95,6 +95,19 @@ def _last_time(run):
     return f"the last row of statistics is at t = {times[-1]:g} s, the end time is {end} s" if len(times) else "there are no statistics"
 
 
+def stages(log):
+    """What the log says of each stage: what was removed or added, how it settled, its motion and checks beyond their bounds."""
+    parts = []
+    for block in re.split(r"^Stage +", log.text, flags=re.MULTILINE)[1:]:
+        title, text = block.split("\n", 1)
+        joined = re.sub(r"\n {12}(?=\S)", " ", text)  # lines that go on
+        lines = re.findall(r"^(Removed|Added|Settled|Settling:|Check:|Motion|Run-out) +(.*)$", joined, re.MULTILINE)
+        said = "\n".join(f'<div class="{"bad" if label == "Check:" else "good"}"><b>{label.rstrip(":")}</b> {html.escape(line)}</div>'
+                         for label, line in lines if not re.match(r"\S+ s, step ", line))  # of its progress
+        parts.append(f"<h3>{html.escape(title)}</h3>\n{said}")
+    return "\n".join(parts)
+
+
 def warnings(log):
     if not log.warnings:
         return "<p>None.</p>"
@@ -242,6 +255,7 @@ def page(run, field=None, times=None):
     sections = [
         ("safety", "Factor of safety", factor_of_safety(safety) + "\n".join(trials) if safety else ""),
         ("verdict", "Verdict", verdict(run, log) if case == run else ""),
+        ("stages", "Stages", stages(log)),
         ("warnings", "Warnings", warnings(log)),
         ("run", "Run", table(identity(run, log))),
         ("maps", "Maps", drawn["maps"]),
