@@ -21,6 +21,7 @@ namespace scree
       GridParameters grid;                  ///< box and cell size
       double accuracy      = 0;             ///< relative error for which cells are recommended
       double settling_time = 0;             ///< s, at most
+      double stages_time   = 0;             ///< of all stages with their settling, s, at most
       unsigned int n_ranks = 1;             ///< ranks of the run
       unsigned int coarser = 1; ///< how many times as wide the cells were in the first steps that were taken
       double pilot_coarser = 0; ///< and in the pilot; 0: there was none
@@ -157,7 +158,10 @@ namespace scree
           advice.n_ranks > 1 },
         { "settling, at most",
           core_time(cost.step_seconds / scene.end_time * advice.settling_time),
-          advice.settling_time > 0 }
+          advice.settling_time > 0 },
+        { "stages with their settling, at most",
+          core_time(cost.step_seconds / scene.end_time * advice.stages_time),
+          advice.stages_time > 0 }
       };
       lines.insert(lines.end(), rest.begin(), rest.end());
       return lines;
@@ -308,6 +312,7 @@ namespace scree
     advice.time_step     = parameters.time_step;
     advice.output        = parameters.output;
     advice.settling_time = parameters.settling.maximum_time;
+    advice.stages_time   = parameters.later_duration + parameters.stages.size() * advice.settling_time;
     advice.n_ranks       = n_ranks > 0 ? n_ranks : Utilities::MPI::n_mpi_processes(communicator);
     advice.coarser       = coarsening<dim>(parameters, communicator);
     advice.memory        = [&](const double cell_size) {

@@ -32,6 +32,12 @@ namespace scree
                     { { "impermeable", "", [](const double) { return Wall{ Holds::normal }; } },
                       { "no slip", "", [](const double) { return Wall{ Holds::all }; } },
                       { "drained", "", [](const double) { return Wall(); } },
+                      { "drained level",
+                        "LEVEL(t) (m)",
+                        [](const double) { return Wall(); },
+                        std::numeric_limits<double>::lowest(),
+                        std::numeric_limits<double>::max(),
+                        true },
                       { "drained", "PRESSURE (Pa)", [](const double pressure) {
                          return Wall{ Holds::nothing, false, 0., pressure };
                        } } } } };
@@ -56,9 +62,17 @@ namespace scree
         if (type.number.empty() && text == type.name)
           return type.make(0.);
         else if (!type.number.empty() && text.rfind(type.name + ' ', 0) == 0)
-          if (const double number = number_of(Utilities::trim(text.substr(type.name.size())));
-              number >= type.least && number < type.below)
-            return type.make(number);
+          {
+            const std::string rest = Utilities::trim(text.substr(type.name.size()));
+            if (type.is_level)
+              {
+                Wall wall  = type.make(0.);
+                wall.level = rest;
+                return wall;
+              }
+            if (const double number = number_of(rest); number >= type.least && number < type.below)
+              return type.make(number);
+          }
       return {};
     }
   } // namespace
@@ -93,6 +107,8 @@ namespace scree
         if (!wall)
           throw EntryError(entry_name(subsection, face) + " = " + texts.at(face) +
                            ": write one of: " + accepted_walls(subsection));
+        if (!wall->level.empty())
+          parse_expression<1>(entry_name(subsection, face), wall->level, 1); // throws if it does not read
         result.push_back(*wall);
       }
     return result;
@@ -133,14 +149,38 @@ namespace scree
 
 
   template <int dim>
-  double BoundaryConditions<dim>::pressure(const std::uint8_t faces) const
+  BoundaryConditions<dim>::BoundaryConditions(const BackgroundGrid<dim> &grid,
+                                              const FaceEntries &parameters,
+                                              const double unit_weight)
+      : grid(grid)
+      , wall_list(parameters.walls(dim))
+      , unit_weight(unit_weight)
+  {
+    for (unsigned int f = 0; f < 2 * dim; ++f)
+      if (!wall_list[f].level.empty())
+        levels[f] = parse_expression<1>(entry_name(water_walls, FaceEntries::names(dim)[f]), wall_list[f].level, 1);
+    set_time(0.);
+  }
+
+
+  template <int dim>
+  void BoundaryConditions<dim>::set_time(const double time)
+  {
+    for (unsigned int f = 0; f < 2 * dim; ++f)
+      if (levels[f])
+        present_levels[f] = levels[f]->value(Point<1>(time));
+  }
+
+
+  template <int dim>
+  double BoundaryConditions<dim>::pressure(const std::uint8_t faces, const double height) const
   {
     double sum     = 0;
     unsigned int n = 0;
     for (unsigned int f = 0; f < 2 * dim; ++f)
       if ((faces >> f) & 1 && is_open(f))
         {
-          sum += wall_list[f].pressure;
+          sum += levels[f] ? std::max(0., unit_weight * (present_levels[f] - height)) : wall_list[f].pressure;
           ++n;
         }
     return n > 0 ? sum / n : 0.;

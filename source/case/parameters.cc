@@ -206,7 +206,7 @@ namespace scree
         std::istringstream text(file.statements_text());
         handler.parse_input(text, file_name);
         find_unread_laws(all);
-        end_time       = std::accumulate(durations.begin(), durations.end(), end_time);
+        end_time += duration_so_far;
         bed.map_origin = Point<2>(local_origin[0], local_origin[1]);
         for (ObstacleParameters &obstacle : obstacles)
           obstacle.surface.map_origin = bed.map_origin;
@@ -559,8 +559,7 @@ namespace scree
             body->added_by = subsection;
             body->is_there = !is_later;
           }
-        if (!is_later)
-          durations.push_back(number_of(file.value(subsection, "Duration", "0")));
+        (is_later ? later_duration : duration_so_far) += number_of(file.value(subsection, "Duration", "0"));
         is_later = is_later || subsection == last;
       }
     // Those that are there come first: regions and bodies are numbered alike.

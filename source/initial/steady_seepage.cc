@@ -597,7 +597,7 @@ namespace scree
       return {};
     if (has_head)
       return no_head; // Above it water may leave.
-    const double pressure = walls.pressure(1u << face);
+    const double pressure = walls.pressure(1u << face, height);
     return pressure == 0. ? no_head : height + pressure / unit_weight;
   }
 

@@ -91,7 +91,10 @@ namespace scree
       , expected_memory(require_memory<dim>(parameters, communicator))
       , grid(parameters.grid, places_of_points<dim>(parameters), communicator)
       , walls(grid, parameters.boundaries)
-      , water_walls(parameters.has_water ? std::make_unique<BoundaryConditions<dim>>(grid, parameters.water_boundaries)
+      , water_walls(parameters.has_water ? std::make_unique<BoundaryConditions<dim>>(grid,
+                                                                                     parameters.water_boundaries,
+                                                                                     parameters.water.density *
+                                                                                         parameters.size_of_gravity())
                                          : nullptr)
       , forcing(grid, parameters.gravity, parameters.body_forces, parameters.time_step.mass_scaling)
       , water_at_start(parameters.water)
@@ -270,6 +273,8 @@ namespace scree
   void Scene<dim>::begin_step(const double time, const double time_step)
   {
     forcing.set_step(time, time_step);
+    if (water_walls)
+      water_walls->set_time(time + time_step);
     for (Obstacle<dim> &obstacle : obstacles)
       obstacle.begin_step(time, time_step);
     bool has_changed = false;

@@ -170,7 +170,7 @@ namespace scree
     if (sums[wet_cells] > 0. && (walls.open_faces() & vertices.faces(vertex)) != 0)
       {
         kinds[vertex] = PressureDofType::prescribed;
-        return walls.pressure(vertices.faces(vertex));
+        return walls.pressure(vertices.faces(vertex), vertices.position(vertex)[dim - 1]);
       }
     if (sums[water] > 0. && distances[vertex] >= least_depth - 1e-9 && open[vertex].has_room)
       {

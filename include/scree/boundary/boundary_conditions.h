@@ -3,6 +3,7 @@
 #define scree_boundary_boundary_conditions_h
 
 #include <scree/boundary/node_constraint.h>
+#include <scree/input/expression.h>
 #include <scree/input/input_error.h>
 #include <scree/mesh/background_grid.h>
 
@@ -29,16 +30,18 @@ namespace scree
     bool lets_lift_off          = false; ///< it holds soil that moves into it, with Coulomb friction along it
     double friction_coefficient = 0;     ///< of one that soil lifts off from; may be infinite
     double pressure             = 0;     ///< of the water where it holds nothing, Pa
+    std::string level; ///< in its place: the level that the water falls to there, m, an expression of t; may be empty
   };
 
   /// A kind of wall, as entries have it: its name, or name and number.
   struct WallType
   {
     std::string name;                  ///< as in entries
-    std::string number;                ///< what the number is, for messages and pages; empty: there is none
+    std::string number;                ///< what the number or level is, for messages and pages; empty: there is none
     Wall (*make)(const double number); ///< the wall; 0 where there is no number
-    double least = std::numeric_limits<double>::lowest(); ///< of the number
-    double below = std::numeric_limits<double>::max();    ///< limit that it does not reach
+    double least  = std::numeric_limits<double>::lowest(); ///< of the number
+    double below  = std::numeric_limits<double>::max();    ///< limit that it does not reach
+    bool is_level = false;                                 ///< an expression of t in place of a number
   };
 
   /// Adds a type of walls for soil (subsection Boundaries) or water (Boundaries/Water); its source file has one as a
@@ -119,11 +122,11 @@ namespace scree
   {
   public:
     /// Reads the entries; throws EntryError if one does not read as a wall.
-    BoundaryConditions(const BackgroundGrid<dim> &grid, const FaceEntries &parameters)
-        : grid(grid)
-        , wall_list(parameters.walls(dim))
-    {
-    }
+    /// @param unit_weight of the water, N/m^3, for walls with a level
+    BoundaryConditions(const BackgroundGrid<dim> &grid, const FaceEntries &parameters, const double unit_weight = 0.);
+
+    /// Takes the levels of a time, s.
+    void set_time(const double time);
 
     /// What the walls do at a node that lies on the given faces of the box.
     std::vector<NodeConstraint<dim>> constraints(const std::uint8_t faces) const;
@@ -175,15 +178,21 @@ namespace scree
       return ((1u << 2 * dim) - 1) & ~open_faces();
     }
 
-    /// Pressure of the open ones among the faces, Pa: their mean, or 0 if there is none.
-    double pressure(const std::uint8_t faces) const;
+    /// Pressure of the open ones among the faces at a height, m, Pa: their mean, or 0 if there is none.
+    double pressure(const std::uint8_t faces, const double height) const;
 
-    /// Whether any open face holds a pressure other than 0.
+    /// Whether an open face holds a pressure other than 0.
+    bool holds_pressure(const unsigned int face) const
+    {
+      return is_open(face) && (wall_list[face].pressure != 0. || levels[face]);
+    }
+
+    /// Whether any does.
     bool has_pressure() const
     {
       bool any = false;
       for (unsigned int f = 0; f < 2 * dim; ++f)
-        any = any || (is_open(f) && pressure(1u << f) != 0.);
+        any = any || holds_pressure(f);
       return any;
     }
 
@@ -197,6 +206,9 @@ namespace scree
   private:
     const BackgroundGrid<dim> &grid;
     const std::vector<Wall> wall_list;
+    std::array<std::unique_ptr<Expression<1>>, 2 * dim> levels; // m, of t; null: none
+    std::array<double, 2 * dim> present_levels{};               // m
+    const double unit_weight;                                   // N/m^3
   };
 
   /// The face of the box, in deal.II's numbering, beyond which a point outside is farthest.

@@ -179,6 +179,7 @@ namespace scree
     SafetyParameters safety;                   ///< subsection Safety
     StageParameters stage;                     ///< the stage that this is
     std::vector<std::string> stages;           ///< subsections of all stages, in the order of the file
+    double later_duration = 0.;                ///< of the stages after this one, s
     OutputParameters output;                   ///< subsection Output
     ProbeParameters probes;                    ///< subsection Probes
 
@@ -305,6 +306,15 @@ namespace scree
         set(named.subsection, named.entry, named.path);
     }
 
+    /// Magnitude of gravity, m/s^2.
+    double size_of_gravity() const
+    {
+      double square = 0;
+      for (const double component : gravity)
+        square += component * component;
+      return std::sqrt(square);
+    }
+
   private:
     void name_bodies();
 
@@ -336,15 +346,6 @@ namespace scree
     /// Fills `unread_laws`. Throws EntryError if no entry Material chooses the law that is read instead.
     void find_unread_laws(const dealii::ParameterHandler &defaults);
 
-    /// m/s^2
-    double size_of_gravity() const
-    {
-      double square = 0;
-      for (const double component : gravity)
-        square += component * component;
-      return std::sqrt(square);
-    }
-
     /// Of the stiffest body, m/s; 0 without bodies.
     double wave_speed() const
     {
@@ -359,7 +360,7 @@ namespace scree
 
     InputFile file;
     std::vector<NamedFile> named_files;
-    std::vector<double> durations; // of the stages up to this one, s
+    double duration_so_far = 0.; // of the stages up to this one, s
     std::vector<std::string> body_names{ "Soil" };
     dealii::ParameterHandler handler;
   };

@@ -160,7 +160,7 @@ namespace scree
     /// Whether it prescribes one other than 0.
     bool presses(const unsigned int face) const
     {
-      return is_drained(face) && walls.pressure(1u << face) != 0.;
+      return walls.holds_pressure(face);
     }
 
     /// Whether any does, or there is suction.
