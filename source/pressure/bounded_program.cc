@@ -160,7 +160,7 @@ namespace scree
       if (solution.pressures[i] == least[i])
         is_held[i] = true;
     for (unsigned int k = 0; k < solution.tractions.size(); ++k)
-      if (GroundRow<dim> &row = (*rows)[k]; row.is_unilateral && !presses(k))
+      if (GroundRow<dim> &row = (*rows)[k]; row.is_unilateral && !row.presses(solution.tractions[k]))
         row.holds_across = false;
   }
 
@@ -195,8 +195,11 @@ namespace scree
       {
         free_remaining = remaining;
         restrict_to_free(free_remaining);
-        preconditioner(preconditioned, free_remaining);
-        restrict_to_free(preconditioned);
+        if (result.n < most)
+          {
+            preconditioner(preconditioned, free_remaining);
+            restrict_to_free(preconditioned);
+          }
         std::array<double, 4> sums{
           { local_square(free_remaining), find_release(scratch), free_remaining * preconditioned, energy() }
         };

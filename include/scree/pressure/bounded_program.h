@@ -61,16 +61,9 @@ namespace scree
     void find_residual();
 
     /// What the last iteration left of the source, or find_residual() found.
-    const Vector &residual() const
+    Vector &residual()
     {
       return remaining;
-    }
-
-    /// Whether the traction of a row presses on the ground.
-    bool presses(const unsigned int k) const
-    {
-      constexpr double rounded = 1e-14;
-      return solution.tractions[k] * (*rows)[k].normal > rounded * solution.tractions[k].norm();
     }
 
     /// This rank's part of x S x/2 - x b of the solution, with its residual.
