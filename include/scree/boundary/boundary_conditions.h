@@ -30,7 +30,8 @@ namespace scree
     bool lets_lift_off          = false; ///< it holds soil that moves into it, with Coulomb friction along it
     double friction_coefficient = 0;     ///< of one that soil lifts off from; may be infinite
     double pressure             = 0;     ///< of the water where it holds nothing, Pa
-    std::string level; ///< in its place: the level that the water falls to there, m, an expression of t; may be empty
+    std::string level =
+        ""; ///< in its place: the level that the water falls to there, m, an expression of t; may be empty
   };
 
   /// A kind of wall, as entries have it: its name, or name and number.
