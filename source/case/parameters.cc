@@ -450,7 +450,7 @@ namespace scree
     require_entry(dimension == 2, { "", "Drawing", drawing }, "drawings are for plane scenes. Write an \"Outline\".");
     const Drawing file(drawing, entry_name("", "Drawing"));
     const auto map_of = [&](const EntryValue &entry) {
-      return std::make_shared<const SourceMap>(entry, Outline(file.areas(entry)), grid.lower_corner, grid.upper_corner);
+      return std::make_shared<const SourceMap>(entry, file.areas(entry), grid.lower_corner, grid.upper_corner);
     };
     std::vector<EntryValue> at_start; // Bodies of stages may take the place of others.
     for (const EntryValue &entry : of_bodies)

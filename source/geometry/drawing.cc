@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 
 namespace scree
 {
@@ -17,45 +18,47 @@ namespace scree
 
   namespace
   {
-    OGRPolygon polygon_of(const Rings &rings)
+    /// As areas, of which those that overlap or touch are one.
+    std::shared_ptr<OGRMultiPolygon> united(const OGRMultiPolygon &areas)
     {
+      return std::shared_ptr<OGRMultiPolygon>(
+          OGRGeometryFactory::forceToMultiPolygon(areas.getNumGeometries() > 1 ? areas.UnionCascaded() : areas.clone())
+              ->toMultiPolygon());
+    }
+
+
+    OGRPolygon polygon_of(const OGRLineString &edge)
+    {
+      OGRLinearRing ring;
+      ring.addSubLineString(&edge);
+      ring.closeRings();
       OGRPolygon polygon;
-      for (const Line &ring : rings)
-        {
-          OGRLinearRing copy;
-          for (const Point<2> &x : ring)
-            copy.addPoint(x[0], x[1]);
-          polygon.addRing(&copy);
-        }
+      polygon.addRing(&ring);
       return polygon;
     }
 
 
     /// Throws EntryError, which begins with `name`, if edges cross or touch, or corners are missing.
-    void require_area(const Rings &rings, const std::string &name)
+    void require_area(const OGRPolygon &area, const std::string &name)
     {
-      for (const Line &ring : rings)
-        if (ring.size() < 4)
-          throw EntryError(name + "it has " + std::to_string(std::max<std::size_t>(ring.size(), 1) - 1) +
-                           " corners. Write three or more, x, y in m, one a line, in their order around the place.");
+      const int n_corners = area.IsEmpty() ? 0 : area.getExteriorRing()->getNumPoints() - 1;
+      if (n_corners < 3)
+        throw EntryError(name + "it has " + std::to_string(n_corners) +
+                         " corners. Write three or more, x, y in m, one a line, in their order around the place.");
       const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
-      CPLErrorReset();
-      if (const OGRPolygon polygon = polygon_of(rings); !polygon.IsValid() || !(polygon.get_Area() > 0.))
-        throw EntryError(name + "its edge is not that of an area: " + CPLGetLastErrorMsg() +
-                         " m. Draw the corners in their order around the place, without crossings.");
-    }
-
-
-    /// Closes a ring of corners, m on the map, and moves it; the last may repeat the first.
-    /// @param origin of the case's coordinates
-    Line closed_ring(Line corners, const Point<2> &origin = Point<2>())
-    {
-      for (Point<2> &corner : corners)
-        corner -= origin - Point<2>();
-      if (!corners.empty())
-        corners.push_back(corners.front());
-      corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-      return corners;
+      if (area.IsValid())
+        return;
+      std::string reason       = CPLGetLastErrorMsg(); // "Self-intersection at or near point 1 2"
+      const std::string before = " at or near point ";
+      if (const auto place = reason.find(before); place != std::string::npos)
+        {
+          std::istringstream words(reason.substr(place + before.size()));
+          Point<2> x;
+          words >> x[0] >> x[1];
+          reason = reason.substr(0, place) + " at " + number_text(x) + " m";
+        }
+      throw EntryError(name + "its edge is not that of an area: " + reason +
+                       ". Draw the corners in their order around the place, without crossings.");
     }
 
 
@@ -65,7 +68,8 @@ namespace scree
       std::unique_ptr<GDALDataset> data(
           GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
       if (!data)
-        throw EntryError(name + "GDAL cannot read it: " + CPLGetLastErrorMsg());
+        throw EntryError(name + "GDAL reads no shapes from it. " + CPLGetLastErrorMsg() +
+                         " Write GeoJSON, GeoPackage, a shapefile, DXF or CSV.");
       return data;
     }
 
@@ -84,67 +88,33 @@ namespace scree
     }
 
 
-    Line corners_of(const OGRSimpleCurve &curve)
-    {
-      Line corners;
-      for (int i = 0; i < curve.getNumPoints(); ++i)
-        corners.emplace_back(curve.getX(i), curve.getY(i));
-      return corners;
-    }
-
-
-    /// Adds a geometry and its parts. Throws EntryError, which begins with `name`, at coordinates that are no numbers.
-    void collect(const OGRGeometry &geometry, const std::string &name, DrawnShapes &shapes)
-    {
-      OGREnvelope box;
-      geometry.getEnvelope(&box);
-      if (!std::isfinite(box.MinX + box.MaxX + box.MinY + box.MaxY))
-        throw EntryError(name + "a corner is not at a finite place. Write its coordinates in m.");
-      const std::unique_ptr<OGRGeometry> straight(geometry.getLinearGeometry());
-      const OGRwkbGeometryType type = wkbFlatten(straight->getGeometryType());
-      if (type == wkbPolygon)
-        {
-          shapes.areas.emplace_back();
-          for (const OGRLinearRing *ring : *straight->toPolygon())
-            shapes.areas.back().push_back(closed_ring(corners_of(*ring)));
-        }
-      else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection))
-        for (const OGRGeometry *part : *straight->toGeometryCollection())
-          collect(*part, name, shapes);
-      else
-        {
-          shapes.other_type = OGRGeometryTypeToName(type);
-          if (type == wkbLineString)
-            shapes.lines.push_back(corners_of(*straight->toLineString()));
-        }
-    }
-
-
     /// Areas of a file in a vector format of GDAL, those of multi-polygons one by one, and the attribute `thickness` of
     /// each, m; no thickness if none has it. Throws EntryError if there is none or anything else.
-    std::pair<std::vector<Rings>, std::vector<double>> read_polygons(const std::string &file, const std::string &name)
+    std::pair<OGRMultiPolygon, std::vector<double>> read_polygons(const std::string &file, const std::string &name)
     {
       const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
       const auto data = open(file, name);
-      DrawnShapes shapes;
-      const std::vector<Rings> &areas = shapes.areas;
+      OGRMultiPolygon areas;
       std::vector<double> thickness;
       bool is_known = false;
       for (const auto &feature : only_layer(*data, name))
         if (const OGRGeometry *geometry = feature->GetGeometryRef(); geometry != nullptr && !geometry->IsEmpty())
           {
-            collect(*geometry, name, shapes);
-            if (!shapes.other_type.empty())
-              throw EntryError(name + "it has geometry of type " + shapes.other_type +
+            const std::unique_ptr<OGRGeometry> shape(
+                OGRGeometryFactory::forceToMultiPolygon(geometry->getLinearGeometry()));
+            if (wkbFlatten(shape->getGeometryType()) != wkbMultiPolygon)
+              throw EntryError(name + "it has geometry of type " + OGRGeometryTypeToName(shape->getGeometryType()) +
                                ". Write polygons only: areas that the body occupies.");
+            for (const OGRPolygon *area : *shape->toMultiPolygon())
+              areas.addGeometry(area);
             const int field        = feature->GetFieldIndex("thickness"); // in any case of its letters
             const std::string text = field >= 0 ? feature->GetFieldAsString(field) : "";
             is_known               = is_known || !text.empty();
-            thickness.resize(areas.size(), number_of(text));
+            thickness.resize(areas.getNumGeometries(), number_of(text));
           }
-      if (areas.empty())
+      if (areas.IsEmpty())
         throw EntryError(name + "it has no polygon. Draw the area that the body occupies.");
-      for (std::size_t i = 0; is_known && i < areas.size(); ++i)
+      for (std::size_t i = 0; is_known && i < thickness.size(); ++i)
         if (!(thickness[i] >= 0.))
           throw EntryError(name + "the attribute thickness of polygon " + std::to_string(i + 1) +
                            " is no number from 0 on, in m. Write it for all polygons, or remove the attribute.");
@@ -184,14 +154,17 @@ namespace scree
   } // namespace
 
 
-  Outline::Area::Area(const Rings &rings)
-      : box(rings.front())
-      , bands(1)
+  Outline::Area::Area(const OGRPolygon &polygon, const Point<2> &origin)
   {
     constexpr std::size_t most_bands = 1024;
-    for (const Line &ring : rings)
-      for (std::size_t i = 1; i < ring.size(); ++i)
-        edges.emplace_back(ring[i - 1], ring[i]);
+    for (const OGRLinearRing *ring : polygon)
+      for (int i = 1; i < ring->getNumPoints(); ++i)
+        edges.emplace_back(Point<2>(ring->getX(i - 1) - origin[0], ring->getY(i - 1) - origin[1]),
+                           Point<2>(ring->getX(i) - origin[0], ring->getY(i) - origin[1]));
+    std::vector<Point<2>> corners;
+    for (const auto &edge : edges)
+      corners.push_back(edge.first);
+    box = BoundingBox<2>(corners);
     bands.resize(std::min(edges.size(), most_bands));
     for (unsigned int e = 0; e < edges.size(); ++e)
       {
@@ -224,16 +197,15 @@ namespace scree
   }
 
 
-  Outline::Outline(const std::vector<Rings> &areas, std::vector<double> thickness)
-      : areas(areas.begin(), areas.end())
-      , thickness(std::move(thickness))
-      , box(this->areas.front().box)
+  Outline::Outline(const OGRMultiPolygon &areas, const Point<2> &origin, std::vector<double> thickness)
+      : thickness(std::move(thickness))
+      , sum_of_areas(areas.get_Area())
   {
-    for (std::size_t i = 0; i < areas.size(); ++i)
-      {
-        box.merge_with(this->areas[i].box);
-        sum_of_areas += polygon_of(areas[i]).get_Area();
-      }
+    for (const OGRPolygon *area : areas)
+      this->areas.emplace_back(*area, origin);
+    box = this->areas.front().box;
+    for (const Area &area : this->areas)
+      box.merge_with(area.box);
   }
 
 
@@ -259,24 +231,21 @@ namespace scree
   Outline read_outline(const std::string &file, const std::string &where, const Point<2> &origin)
   {
     const std::string name = where + " = " + file + ": ";
-    if (!is_vector_file(file))
+    if (is_vector_file(file))
       {
-        Line corners;
-        for (const auto &row : read_number_table(file, where, { "x (m)", "y (m)" }, FirstColumn::any))
-          corners.emplace_back(row[0], row[1]);
-        const Rings area{ closed_ring(std::move(corners), origin) };
-        require_area(area, name);
-        return Outline({ area });
+        open_file(file, name);
+        auto [areas, thickness] = read_polygons(file, name);
+        for (int i = 0; i < areas.getNumGeometries(); ++i)
+          require_area(*areas.getGeometryRef(i), name + "polygon " + std::to_string(i + 1) + ", ");
+        return Outline(areas, origin, std::move(thickness));
       }
-    open_file(file, name);
-    auto [areas, thickness] = read_polygons(file, name);
-    for (std::size_t i = 0; i < areas.size(); ++i)
-      {
-        for (Line &ring : areas[i])
-          ring = closed_ring(std::move(ring), origin);
-        require_area(areas[i], name + "polygon " + std::to_string(i + 1) + ", ");
-      }
-    return Outline(areas, std::move(thickness));
+    OGRLineString corners;
+    for (const auto &row : read_number_table(file, where, { "x (m)", "y (m)" }, FirstColumn::any))
+      corners.addPoint(row[0], row[1]);
+    OGRMultiPolygon areas;
+    areas.addGeometryDirectly(polygon_of(corners).clone());
+    require_area(*areas.getGeometryRef(0), name);
+    return Outline(areas, origin);
   }
 
 
@@ -296,8 +265,33 @@ namespace scree
     open_file(file, name);
     const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
     const auto data = open(file, name);
+    std::map<std::string, OGRLineString> corners; // of a table
     for (OGRLayer *layer : data->GetLayers())
-      read(*layer);
+      for (const auto &feature : *layer)
+        {
+          const auto text = [&](const char *field) {
+            const int index = feature->GetFieldIndex(field);
+            return std::string(index < 0 ? "" : feature->GetFieldAsString(index));
+          };
+          const std::string given = text("name").empty() ? text("Layer") : text("name");
+          const std::string &key  = given.empty() ? layer->GetName() : given;
+          if (const OGRGeometry *shape = feature->GetGeometryRef())
+            add(key, *shape);
+          else if (data->GetDriverName() == std::string("CSV"))
+            {
+              const double x = number_of(text("x")), y = number_of(text("y"));
+              if (!std::isfinite(x + y))
+                throw EntryError(name + "row " + std::to_string(feature->GetFID() + 1) +
+                                 " is no corner. Write name, x, y in m in each row.");
+              is_table           = true;
+              OGRLineString &own = corners[key];
+              if (own.getNumPoints() > 2 && own.get_IsClosed())
+                add(key, own), own.empty();
+              own.addPoint(x, y);
+            }
+        }
+    for (const auto &[key, line] : corners)
+      add(key, line);
     if (layers.empty())
       throw EntryError(name +
                        "it has no area and no line. Draw polygons with an attribute \"name\", closed polylines in "
@@ -305,38 +299,21 @@ namespace scree
   }
 
 
-  void Drawing::read(OGRLayer &layer)
+  void Drawing::add(const std::string &layer, const OGRGeometry &shape)
   {
-    const auto &columns   = *layer.GetLayerDefn();
-    const auto index      = [&](const char *field) { return columns.GetFieldIndex(field); };
-    const int of_name     = index("name") >= 0 ? index("name") : index("Layer");
-    const bool is_corners = layer.GetGeomType() == wkbNone && index("x") >= 0 && index("y") >= 0;
-    unsigned int row      = 1; // that names the columns
-    for (const auto &feature : layer)
-      {
-        ++row;
-        std::string of_layer = of_name >= 0 ? feature->GetFieldAsString(of_name) : "";
-        if (of_layer.empty())
-          of_layer = layer.GetName();
-        const OGRGeometry *geometry = feature->GetGeometryRef();
-        if (geometry != nullptr && !geometry->IsEmpty())
-          collect(*geometry, name + "layer " + scree::quoted(of_layer) + ": ", layers[of_layer]);
-        if (!is_corners)
-          continue;
-        const Point<2> corner(number_of(feature->GetFieldAsString(index("x"))),
-                              number_of(feature->GetFieldAsString(index("y"))));
-        if (!std::isfinite(corner[0] + corner[1]))
-          throw EntryError(name + "row " + std::to_string(row) + " is no corner. Write name, x, y in m in each row.");
-        is_table    = true;
-        auto &lines = layers[of_layer].lines;
-        if (lines.empty() || (lines.back().size() > 2 && lines.back().front() == lines.back().back()))
-          lines.emplace_back(); // the one before is closed
-        lines.back().push_back(corner);
-      }
+    OGREnvelope box;
+    shape.getEnvelope(&box);
+    if (!std::isfinite(box.MinX + box.MaxX + box.MinY + box.MaxY))
+      throw EntryError(name + "a corner in layer " + scree::quoted(layer) + " is infinite. Write numbers in m.");
+    if (OGR_GT_IsSubClassOf(wkbFlatten(shape.getGeometryType()), wkbGeometryCollection))
+      for (const OGRGeometry *part : *shape.toGeometryCollection())
+        add(layer, *part);
+    else
+      layers[layer].emplace_back(shape.getLinearGeometry());
   }
 
 
-  const DrawnShapes &Drawing::layer(const EntryValue &entry) const
+  const std::vector<std::shared_ptr<OGRGeometry>> &Drawing::layer(const EntryValue &entry) const
   {
     if (const auto found = layers.find(entry.value); found != layers.end())
       return found->second;
@@ -351,119 +328,70 @@ namespace scree
   }
 
 
-  namespace
+  std::shared_ptr<OGRMultiPolygon> Drawing::polygons(const EntryValue &entry) const
   {
-    /// Lines that end where another one begins or ends, as one.
-    std::vector<Line> joined(std::vector<Line> lines)
-    {
-      const auto is_open = [](const Line &line) { return line.front() != line.back(); };
-      for (std::size_t i = 0; i < lines.size(); ++i)
-        for (std::size_t j = i + 1; j < lines.size() && is_open(lines[i]);)
-          {
-            Line &one = lines[i], &other = lines[j];
-            if (one.front() == other.front() || one.front() == other.back())
-              std::reverse(one.begin(), one.end());
-            if (one.back() == other.back())
-              std::reverse(other.begin(), other.end());
-            if (!is_open(other) || one.back() != other.front())
-              {
-                ++j;
-                continue;
-              }
-            one.insert(one.end(), other.begin() + 1, other.end());
-            lines.erase(lines.begin() + j);
-            j = i + 1;
-          }
-      return lines;
-    }
-
-
-    std::vector<Rings> areas_of(const OGRGeometry &geometry)
-    {
-      DrawnShapes shapes;
-      collect(geometry, "", shapes);
-      return shapes.areas;
-    }
-
-
-    /// As one geometry, without what they have in common twice.
-    std::unique_ptr<OGRGeometry> united(const std::vector<Rings> &areas)
-    {
-      OGRMultiPolygon all;
-      for (const Rings &rings : areas)
-        {
-          const OGRPolygon polygon = polygon_of(rings);
-          all.addGeometry(&polygon);
-        }
-      return std::unique_ptr<OGRGeometry>(all.UnionCascaded());
-    }
-
-
-    double area_of(const OGRGeometry *geometry)
-    {
-      return geometry == nullptr ? 0. : OGR_G_Area(OGRGeometry::ToHandle(const_cast<OGRGeometry *>(geometry)));
-    }
-
-
-    /// Its area and a place in it, in words.
-    std::string place_text(const OGRGeometry &geometry)
-    {
-      const std::unique_ptr<OGRGeometry> place(
-          OGRGeometry::FromHandle(OGR_G_PointOnSurface(OGRGeometry::ToHandle(const_cast<OGRGeometry *>(&geometry)))));
-      return number_text(area_of(&geometry)) + " m^2, for instance at " +
-             number_text({ place->toPoint()->getX(), place->toPoint()->getY() }) + " m";
-    }
-  } // namespace
-
-
-  std::vector<Rings> Drawing::areas(const EntryValue &entry) const
-  {
-    const DrawnShapes &shapes = layer(entry);
-    std::vector<Rings> areas  = shapes.areas;
+    OGRMultiPolygon areas;
     std::vector<OGRGeometry *> edges;
-    for (Line &line : joined(shapes.lines))
-      {
-        if (line.front() != line.back() && !is_table)
-          throw EntryError(entry_message(
-              entry,
-              "its line from " + number_text(line.front()) + " to " + number_text(line.back()) +
-                  " m is open: " + number_text(line.front().distance(line.back())) + " m are missing. Close it."));
-        areas.push_back({ closed_ring(std::move(line)) });
-      }
-    for (const Rings &rings : areas)
-      require_area(rings, entry_message(entry, ""));
-    if (areas.empty())
-      throw EntryError(entry_message(entry, "it has no area. Draw a polygon, or a closed polyline."));
-    for (std::size_t i = shapes.areas.size(); i < areas.size(); ++i)
-      edges.push_back(polygon_of(areas[i]).clone());
-    areas.resize(shapes.areas.size());
+    for (const auto &shape : layer(entry))
+      if (const OGRwkbGeometryType type = wkbFlatten(shape->getGeometryType()); type == wkbPolygon)
+        {
+          require_area(*shape->toPolygon(), entry_message(entry, ""));
+          areas.addGeometry(shape.get());
+        }
+      else if (type == wkbLineString)
+        {
+          const OGRLineString &line = *shape->toLineString();
+          OGRPoint first, last;
+          line.StartPoint(&first);
+          line.EndPoint(&last);
+          if (!line.get_IsClosed() && !is_table)
+            throw EntryError(entry_message(entry,
+                                           "its line from " + number_text({ first.getX(), first.getY() }) + " to " +
+                                               number_text({ last.getX(), last.getY() }) +
+                                               " m is open. Join and close what encloses the area as one polyline."));
+          require_area(polygon_of(line), entry_message(entry, ""));
+          edges.push_back(polygon_of(line).clone());
+        }
     if (!edges.empty())
       {
-        const std::unique_ptr<OGRGeometry> with_holes(
-            OGRGeometryFactory::organizePolygons(edges.data(), edges.size(), nullptr, nullptr));
-        const auto more = areas_of(*with_holes);
-        areas.insert(areas.end(), more.begin(), more.end());
+        const std::unique_ptr<OGRGeometry> with_holes(OGRGeometryFactory::forceToMultiPolygon(
+            OGRGeometryFactory::organizePolygons(edges.data(), edges.size(), nullptr, nullptr)));
+        for (const OGRPolygon *area : *with_holes->toMultiPolygon())
+          areas.addGeometry(area);
       }
-    return areas.size() > 1 ? areas_of(*united(areas)) : areas;
+    if (areas.IsEmpty())
+      throw EntryError(entry_message(entry, "it has no area. Draw a polygon, or a closed polyline."));
+    return united(areas);
   }
 
 
-  Line Drawing::line(const EntryValue &entry) const
+  Outline Drawing::areas(const EntryValue &entry) const
   {
-    std::vector<Line> lines = joined(layer(entry).lines);
-    if (lines.size() != 1)
+    return Outline(*polygons(entry));
+  }
+
+
+  std::vector<Point<2>> Drawing::line(const EntryValue &entry) const
+  {
+    std::vector<std::vector<Point<2>>> lines;
+    for (const auto &shape : layer(entry))
+      if (wkbFlatten(shape->getGeometryType()) == wkbLineString)
+        {
+          lines.emplace_back();
+          for (const OGRPoint &corner : *shape->toLineString())
+            lines.back().emplace_back(corner.getX(), corner.getY());
+        }
+    if (lines.size() != 1 || lines.front().size() < 2)
       throw EntryError(entry_message(
           entry, "it has " + std::to_string(lines.size()) + " lines. Draw one polyline from the left to the right."));
-    Line &line = lines.front();
+    std::vector<Point<2>> line = lines.front();
     if (line.front()[0] > line.back()[0])
       std::reverse(line.begin(), line.end());
     line.erase(std::unique(line.begin(), line.end()), line.end());
     for (std::size_t i = 1; i < line.size(); ++i)
-      if (!(line[i][0] > line[i - 1][0]))
+      if (!(line[i][0] > line[i - 1][0] && std::isfinite(line[i][1] + line[i - 1][1])))
         throw EntryError(entry_message(
             entry, "it is vertical or turns back at " + number_text(line[i]) + " m. Draw one elevation for each x."));
-    if (line.size() < 2)
-      throw EntryError(entry_message(entry, "it is a single point. Draw a polyline."));
     return line;
   }
 
@@ -472,55 +400,49 @@ namespace scree
                                           const std::vector<std::string> &others,
                                           const double cell_size) const
   {
-    constexpr double largest_overlap = 0.01, largest_gap = 0.5; // of a cell
-    const double cell = cell_size * cell_size;
+    constexpr double largest_overlap = 0.01; // width, in cells
+    constexpr double largest_gap     = 0.5;  // area, in cells
+    using Geometry                   = std::unique_ptr<OGRGeometry>;
     const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
-    std::vector<std::unique_ptr<OGRGeometry>> drawn;
-    std::vector<Rings> all;
+    const auto area_of = [](const Geometry &one) { return OGR_G_Area(OGRGeometry::ToHandle(one.get())); };
+    const auto text_of = [&](const Geometry &one) {
+      const Geometry place(OGRGeometry::FromHandle(OGR_G_PointOnSurface(OGRGeometry::ToHandle(one.get()))));
+      return number_text(area_of(one)) + " m^2, for instance at " +
+             number_text({ place->toPoint()->getX(), place->toPoint()->getY() }) + " m";
+    };
+    std::vector<std::string> remarks, used = others;
+    std::vector<std::shared_ptr<OGRMultiPolygon>> drawn;
+    Geometry all(new OGRMultiPolygon);
     for (const EntryValue &entry : bodies)
       {
-        const auto of_body = areas(entry);
-        all.insert(all.end(), of_body.begin(), of_body.end());
-        drawn.push_back(united(of_body));
+        drawn.push_back(polygons(entry));
+        used.push_back(entry.value);
+        all.reset(all->Union(drawn.back().get()));
         for (std::size_t i = 0; i + 1 < drawn.size(); ++i)
-          if (const std::unique_ptr<OGRGeometry> common(drawn.back()->Intersection(drawn[i].get()));
-              area_of(common.get()) > largest_overlap * cell)
+          if (const Geometry common(drawn.back()->Intersection(drawn[i].get())),
+              wide(common ? common->Buffer(-0.5 * largest_overlap * cell_size) : nullptr);
+              wide && !wide->IsEmpty())
             throw EntryError(entry_message(entry,
                                            "it overlaps the layer " + scree::quoted(bodies[i].value) + " of " +
-                                               bodies[i].subsection + " on " + place_text(*common) +
+                                               bodies[i].subsection + " on " + text_of(common) +
                                                ". Leave the place to one of them."));
       }
-    std::vector<std::string> remarks;
-    // A gap is what disappears if all layers grow by half a cell and shrink again, and lies at two of them: the others
-    // are corners of the ground.
-    if (const auto one = all.empty() ? nullptr : united(all))
-      {
-        const std::unique_ptr<OGRGeometry> grown(one->Buffer(cell_size / 2));
-        const std::unique_ptr<OGRGeometry> shrunk(grown->Buffer(-cell_size / 2));
-        std::vector<Rings> outer = areas_of(*shrunk);
-        for (Rings &rings : outer)
-          rings.resize(1);
-        const std::unique_ptr<OGRGeometry> gaps(united(outer)->Difference(one.get()));
-        for (const Rings &rings : areas_of(*gaps))
-          {
-            const OGRPolygon gap = polygon_of(rings);
-            const auto n_at      = std::count_if(drawn.begin(), drawn.end(), [&](const auto &layer) {
-              return layer->Distance(&gap) < 1e-3 * cell_size;
-            });
-            if (n_at > 1 && gap.get_Area() > largest_gap * cell)
-              remarks.push_back("Unusual value: " + name + "a gap between its layers has " + place_text(gap) +
-                                ". No body is there; draw the layers up to each other if that is not meant.");
-          }
-      }
-    std::vector<std::string> unused;
+    // What is filled if all grow by half a cell and shrink again is a gap if two layers are at it, or else a corner.
+    const Geometry grown(all->Buffer(cell_size / 2)), shrunk(grown->Buffer(-cell_size / 2));
+    const Geometry gaps(OGRGeometryFactory::forceToMultiPolygon(shrunk->Difference(all.get())));
+    for (const OGRPolygon *part : *gaps->toMultiPolygon())
+      if (const Geometry gap(part->clone()); area_of(gap) > largest_gap * cell_size * cell_size &&
+                                             std::count_if(drawn.begin(), drawn.end(), [&](const auto &layer) {
+                                               return layer->Distance(gap.get()) < 1e-3 * cell_size;
+                                             }) > 1)
+        remarks.push_back("Unusual value: " + name + "a gap between its layers has " + text_of(gap) +
+                          ". No body is there; draw the layers up to each other if that is not meant.");
+    std::string unused;
     for (const auto &[layer, shapes] : layers)
-      if (std::find(others.begin(), others.end(), layer) == others.end() &&
-          std::none_of(
-              bodies.begin(), bodies.end(), [&, &layer = layer](const auto &body) { return body.value == layer; }))
-        unused.push_back(scree::quoted(layer));
+      if (std::find(used.begin(), used.end(), layer) == used.end())
+        unused += (unused.empty() ? "" : ", ") + scree::quoted(layer);
     if (!unused.empty())
-      remarks.push_back("Unusual value: " + name + "the case does not use its layers " +
-                        boost::algorithm::join(unused, ", ") + '.');
+      remarks.push_back("Unusual value: " + name + "the case does not use its layers " + unused + '.');
     return remarks;
   }
 } // namespace scree

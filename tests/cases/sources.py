@@ -192,8 +192,8 @@ def shifted():
 SECTION = {"Drawing": "../section.geojson", "Bodies": "Clay, Sand", "End time": 1e-9, "Mesh/Upper corner": "12, 6", "Mesh/Cell size": 0.5, "Output/Graphics": "points"}
 BODY = {"Points per cell": 3, "Material": "linear elastic", "Grain density": 2500, "Initial porosity": 0.4, "Linear elastic/Young's modulus": 1e6}
 DRAWN = {"clay": [(0, 0), (12, 0), (12, 3), (7.3, 2.2), (0, 1)], "sand": [(0, 1), (7.3, 2.2), (12, 3), (12, 5), (9, 5), (4, 3), (0, 3)],
-         "hole": [(9, 0.6), (11, 0.6), (11, 1.7), (9, 1.3)], "water table": [(12, 4.1), (5.3, 2.1), (0, 1.7)]}
-EXPRESSIONS = {"clay": "y < if(x < 7.3, 1 + 1.2/7.3*x, 2.2 + 0.8/4.7*(x - 7.3)) && !(x > 9 && x < 11 && y > 0.6 && y < 1.3 + 0.2*(x - 9))",
+         "hole": [(9.03, 0.61), (10.97, 0.61), (10.97, 1.71), (9.03, 1.307)], "water table": [(12, 4.1), (5.3, 2.1), (0, 1.7)]}
+EXPRESSIONS = {"clay": "y < if(x < 7.3, 1 + 1.2/7.3*x, 2.2 + 0.8/4.7*(x - 7.3)) && (x > 9.03 && x < 10.97 && y > 0.61 && y < 1.307 + 0.403/1.94*(x - 9.03)) == 0",
                "sand": "y >= if(x < 7.3, 1 + 1.2/7.3*x, 2.2 + 0.8/4.7*(x - 7.3)) && y < if(x < 4, 3, if(x < 9, 3 + 0.4*(x - 4), 5))",
                "water table": "if(x < 5.3, 1.7 + 0.4/5.3*x, 2.1 + 2/6.7*(x - 5.3))"}
 
@@ -221,10 +221,7 @@ def draw(file, driver):
         if name == "water table":
             add(name, line(corners, ogr.wkbLineString))
         elif is_dxf:
-            # The sand as single lines, each in its own direction.
-            pairs = list(zip(corners, corners[1:] + corners[:1]))
-            for number, ends in enumerate(pairs if name == "sand" else [corners + corners[:1]]):
-                add(name.replace("hole", "clay"), line(ends[::-1] if number % 2 else ends, ogr.wkbLineString))
+            add(name.replace("hole", "clay"), line(corners + corners[:1], ogr.wkbLineString))
         elif name != "hole":
             polygon = ogr.Geometry(ogr.wkbPolygon)
             for ring in [corners] + [DRAWN["hole"]] * (name == "clay"):

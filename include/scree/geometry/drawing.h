@@ -8,23 +8,22 @@
 
 #include <map>
 
-class OGRLayer;
+class OGRGeometry;
+class OGRMultiPolygon;
+class OGRPolygon;
 
 namespace scree
 {
-  /// Corners of a line, m; of an area the first one is at the end again.
-  using Line = std::vector<dealii::Point<2>>;
-
-  /// An area: its edge and its holes.
-  using Rings = std::vector<Line>;
-
   /// Areas on the map or in a section, such as those of a release; they may overlap.
   class Outline
   {
   public:
-    /// @param areas at least one
+    /// @param areas at least one, m
+    /// @param origin where they have the origin of the outline's x and y, m
     /// @param thickness of each area, m; empty: not known
-    explicit Outline(const std::vector<Rings> &areas, std::vector<double> thickness = {});
+    explicit Outline(const OGRMultiPolygon &areas,
+                     const dealii::Point<2> &origin = dealii::Point<2>(),
+                     std::vector<double> thickness  = {});
 
     /// Whether a place, m, is in an area and in none of its holes.
     bool contains(const dealii::Point<2> &x) const
@@ -57,21 +56,16 @@ namespace scree
     }
 
   private:
-    /// The edges of an area, sorted by bands of y: a place is compared with those of its band only.
-    class Area
+    /// The edges of an area by bands of y, so that a place is compared with those of its band only.
+    struct Area
     {
-    public:
-      explicit Area(const Rings &rings);
-
+      Area(const OGRPolygon &polygon, const dealii::Point<2> &origin);
       bool contains(const dealii::Point<2> &x) const;
-
-      dealii::BoundingBox<2> box;
-
-    private:
       std::size_t band_at(const double y) const;
 
+      dealii::BoundingBox<2> box;
       std::vector<std::pair<dealii::Point<2>, dealii::Point<2>>> edges;
-      std::vector<std::vector<unsigned int>> bands; // numbers of edges
+      std::vector<std::vector<unsigned int>> bands; ///< numbers of edges
     };
 
     std::vector<Area> areas;
@@ -90,47 +84,36 @@ namespace scree
   /// The coordinate system of an outline, see Raster::system; empty if it is not known.
   std::string read_outline_system(const std::string &file, const std::string &where);
 
-  /// What a layer of a drawing has.
-  struct DrawnShapes
-  {
-    std::vector<Rings> areas;
-    std::vector<Line> lines;
-    std::string other_type = ""; ///< of the last of its shapes that is no area; empty: there is none
-  };
-
   /// The layers of a plane section, by their names.
   class Drawing
   {
   public:
     /// Reads a file in a vector format of GDAL. The layer of a shape is its attribute `name`, in DXF its layer, else
     /// that of the file. Rows `name, x, y` of a CSV file are corners; those of an area close by themselves.
-    /// Throws EntryError if there is nothing in it.
-    /// @param where entry_name() of the entry that names the file
+    /// Throws EntryError, which begins with `where` (see entry_name()), if nothing is in it.
     Drawing(const std::string &file, const std::string &where);
 
-    /// The areas of a layer; closed lines are edges, and holes if they lie in others; areas that overlap are one.
-    /// Throws EntryError if there is no such layer, with the closest name, if a line is open, or if edges cross.
-    /// @param entry that names the layer
-    std::vector<Rings> areas(const EntryValue &entry) const;
+    /// The areas of the layer that an entry names. Closed lines are edges, and holes if they lie in others; areas that
+    /// overlap are one. Throws EntryError if there is no such layer, if a line is open, or if edges cross.
+    Outline areas(const EntryValue &entry) const;
 
-    /// The line of a layer with ascending x. Throws EntryError if there is no such layer, or not one such line.
-    Line line(const EntryValue &entry) const;
+    /// Corners of the one line of a layer, m, with ascending x. Throws EntryError if there is none.
+    std::vector<dealii::Point<2>> line(const EntryValue &entry) const;
 
-    /// Throws EntryError if two layers overlap by more than a hundredth of a cell. Returns remarks for the log: on gaps
-    /// between layers of more than half a cell, and on layers that no entry names.
+    /// Throws EntryError if two layers overlap on more than a hundredth of a cell's width. Returns remarks on gaps
+    /// between layers of more than half a cell, and on layers without use, for the log.
     /// @param bodies entries whose layers are areas
     /// @param others names of further layers in use
     std::vector<std::string>
     check(const std::vector<EntryValue> &bodies, const std::vector<std::string> &others, const double cell_size) const;
 
   private:
-    void read(OGRLayer &layer);
-
-    /// Throws EntryError if there is no such layer.
-    const DrawnShapes &layer(const EntryValue &entry) const;
+    void add(const std::string &layer, const OGRGeometry &shape);
+    const std::vector<std::shared_ptr<OGRGeometry>> &layer(const EntryValue &entry) const;
+    std::shared_ptr<OGRMultiPolygon> polygons(const EntryValue &entry) const;
 
     const std::string name; // of the file, as messages begin
-    std::map<std::string, DrawnShapes> layers;
+    std::map<std::string, std::vector<std::shared_ptr<OGRGeometry>>> layers;
     bool is_table = false; // of corners
   };
 } // namespace scree

@@ -3,6 +3,7 @@
 
 import contextlib
 import pathlib
+import re
 
 import matplotlib.colors
 import matplotlib.patches
@@ -30,15 +31,16 @@ def _numbers(text):
 
 
 def _draw_walls(axes, box, entries):
-    (left, bottom), (right, top) = box.lower, box.upper
-    size = np.max(box.upper - box.lower)
-    for face, ends, turn in (("Left", ((left, left), (bottom, top)), 90), ("Right", ((right, right), (bottom, top)), 90),
-                             ("Bottom", ((left, right), (bottom, bottom)), 0), ("Top", ((left, right), (top, top)), 0)):
-        wall = entries.get(f"Boundaries/{face}", "fixed" if face == "Bottom" else "open" if face == "Top" else "free slip")
-        inflows = [key.split("/")[0] for key, value in entries.items() if key.startswith("Inflow ") and key.endswith("/Face") and value == face]
-        axes.plot(*ends, color="0.1", lw=2.5, ls=WALL_STYLES.get(wall, "-."), clip_on=False, zorder=7)
-        inwards = 0.025 * size * np.sign(np.mean([box.lower, box.upper], axis=0) - np.mean(ends, axis=1)) * np.array([1, 0] if turn else [0, 1])
-        axes.text(*(np.mean(ends, axis=1) + inwards), ", ".join([wall, *inflows]), rotation=turn, ha="center", va="center", fontsize="x-small",
+    middle, size = 0.5 * (box.lower + box.upper), np.max(box.upper - box.lower)
+    for face, axis, end, default in (("Left", 0, box.lower, "free slip"), ("Right", 0, box.upper, "free slip"),
+                                     ("Bottom", 1, box.lower, "fixed"), ("Top", 1, box.upper, "open")):
+        wall, ends = entries.get(f"Boundaries/{face}", default), np.array([box.lower, box.upper])
+        ends[:, axis] = end[axis]
+        place = np.mean(ends, axis=0)
+        place[axis] += 0.025 * size * np.sign(middle - end)[axis]
+        inflows = [key.split("/")[0] for key, value in entries.items() if re.match("Inflow [^/]*/Face$", key) and value == face]
+        axes.plot(*ends.T, color="0.1", lw=2.5, ls=WALL_STYLES.get(wall, "-."), clip_on=False, zorder=7)
+        axes.text(*place, ", ".join([wall, *inflows]), rotation=90 * (axis == 0), ha="center", va="center", fontsize="x-small",
                   bbox={"facecolor": "white", "alpha": 0.7, "lw": 0, "pad": 1.5}, zorder=8)
 
 
@@ -90,8 +92,9 @@ def render_scene(run, output, view=None):
         patches = [matplotlib.patches.Patch(facecolor="0.45" if number in rigid.rigid_bodies(run) else colours[number], edgecolor="0.3",
                                             label=f"{names[number]} ({entries.get(names[number] + '/Material', 'Mohr-Coulomb')})") for number in shown]
         if patches:
-            axes.set_title(" ")
-            figure.legend(handles=patches, loc="upper center", ncols=4, fontsize="small", frameon=False)
+            columns = 4 if len(patches) != 5 else 3
+            axes.set_title("\n" * (-(-len(patches) // columns)), fontsize="small")  # room for the legend
+            figure.legend(handles=patches, loc="upper center", ncols=columns, fontsize="small", frameon=False)
         if of_the_rest:
             of_the_rest.set_zorder(10)
         panels.save_picture(figure, output)
