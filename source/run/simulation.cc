@@ -72,7 +72,7 @@ namespace scree
     results.cut();
     if (start == Start::resume)
       {
-        if (parameters.stage.name.empty())
+        if (parameters.stage.name.empty() || !parameters.start_folder.empty()) // that of a trial is its own
           record_case(parameters, folder);
         log_case(scene, folder);
         folder.log("Resumed at t = " + number_text(clock.time()) + " s, step " + std::to_string(clock.step()) +
