@@ -138,8 +138,9 @@ namespace scree
     require_entry(n_bodies > 0,
                   { "Water", "Steady seepage", "true" },
                   "there is no soil, as entry \"Bodies\" is none. Remove this entry.");
-    require_entry(phreatic_surface.empty(),
-                  { "Water", "Phreatic surface", phreatic_surface },
+    require_entry(phreatic_surface.empty() && phreatic_layer.empty(),
+                  phreatic_surface.empty() ? EntryValue("Water", "Phreatic layer", phreatic_layer)
+                                           : EntryValue("Water", "Phreatic surface", phreatic_surface),
                   "the water table follows from \"Steady seepage\". Keep one of the two.");
     require_entry(!reservoir_level.empty() || !wall_heads.empty(),
                   { "Water", "Steady seepage", "true" },
@@ -175,7 +176,10 @@ namespace scree
     require_entry(region == WaterParameters().region,
                   { "Water", "Region", region },
                   quoted(entry) + " = " + elevation + " says where water is, too. Keep one of the two.");
-    require_entry(n_bodies > 0 || phreatic_surface.empty(),
+    require_entry(phreatic_layer.empty() || phreatic_surface.empty(),
+                  { "Water", "Phreatic layer", phreatic_layer },
+                  "\"Phreatic surface\" is the water table, too. Keep one of the two.");
+    require_entry(n_bodies > 0 || (phreatic_surface.empty() && phreatic_layer.empty()),
                   { "Water", entry, elevation },
                   "there is no soil, as entry \"Bodies\" is none. Write a \"Reservoir level\".");
     require_entry(gravity.back() < 0 && std::count(gravity.begin(), gravity.end(), 0.) + 1 == long(dim),
@@ -200,7 +204,7 @@ namespace scree
 
   std::string WaterParameters::region_in_soil(const unsigned int dim) const
   {
-    if (is_steady)
+    if (is_steady || !phreatic_layer.empty()) // table() says where.
       return "1";
     if (has_levels())
       return below("(" + place().second + ')' + (fringe > 0. ? " + " + number_text(fringe) : ""), dim);

@@ -297,7 +297,7 @@ namespace scree
       const Region<dim> wet(entry_name("Water", entry),
                             parameters.water.without_fringe().region_in_soil(dim),
                             nullptr,
-                            parameters.water.table<dim>());
+                            parameters.water.without_fringe().table<dim>());
       const auto up = parameters.grid.cell_size * dealii::Point<dim>::unit_vector(dim - 1);
       bool is_below = true;
       for (const auto &body : bodies)
@@ -320,7 +320,7 @@ namespace scree
                                       const LevelSet<dim> *ground,
                                       const MPI_Comm communicator)
   {
-    std::vector<std::string> remarks = parameters.unread_laws;
+    std::vector<std::string> remarks = parameters.remarks;
     add_unusual_values(parameters, bodies, water, ground, communicator, remarks);
     for (const BodyParameters &body : parameters.bodies)
       add_unresolved_length(body, parameters.grid.cell_size, remarks);

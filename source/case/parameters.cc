@@ -153,6 +153,10 @@ namespace scree
                       removed,
                       "Expression of x, y (and z): soil and water where it holds vanish when the stage begins. Empty: "
                       "nothing vanishes.");
+    prm.add_parameter(
+        "Remove layer",
+        removed_layer,
+        "2D. Layer of \"Drawing\": soil and water in its areas vanish, in place of \"Remove\". Empty: none.");
     prm.add_parameter("Add",
                       adds,
                       "Names of \"Bodies\" that are not there before, separated by commas; they appear when the stage "
@@ -225,6 +229,7 @@ namespace scree
         check_case(*this);
         map_system = system_of_maps(*this);
         read_maps();
+        read_drawing();
         if (has_water)
           water.check_wall_heads(grid.lower_corner, grid.upper_corner);
         water.find_fringe(size_of_gravity());
@@ -302,7 +307,8 @@ namespace scree
       return "A contact has a name. Write subsection Contact Base, or another name.";
     if (subsection == "Stage")
       return "A stage has a name. Write subsection Stage Excavation, or another name.";
-    if (!file.sets(subsection, "Region") || subsection.find('/') != std::string::npos)
+    if (!(file.sets(subsection, "Region") || file.sets(subsection, "Layer")) ||
+        subsection.find('/') != std::string::npos)
       return "";
     return "It is no body either: entry \"Bodies\" lists " + file.value("", "Bodies", "Soil") + ". Add " +
            quoted(subsection) + " there.";
@@ -331,6 +337,12 @@ namespace scree
                       "m; 3D. Map coordinates of the place x = 0, y = 0 of the case. Rasters, outlines and written "
                       "maps use map coordinates; everything else is relative to this place.",
                       Patterns::List(Patterns::Double(), 2, 2));
+    add_file_entry(prm,
+                   "Drawing",
+                   drawing,
+                   "m; 2D. Section with the layers that \"Layer\" of bodies, \"Phreatic layer\" of Water and \"Remove "
+                   "layer\" of stages name: GeoJSON, shapefile, GeoPackage, DXF or CSV. A layer is the attribute name, "
+                   "in DXF the layer, or the first column of CSV rows name, x, y.");
     prm.add_parameter("Coordinate system",
                       coordinate_system,
                       "3D. Coordinate system of rasters and written maps, for instance EPSG:2056. Empty: that of the "
@@ -398,7 +410,7 @@ namespace scree
       {
         SeedingParameters &seeding = body.seeding;
         seeding.source.check(body.name, dimension, has_water && !water.region_outside(dimension).empty(), bed.is_set());
-        if (!seeding.source.is_set())
+        if (!seeding.source.is_set() || !seeding.source.layer.empty())
           continue;
         try
           {
@@ -417,6 +429,50 @@ namespace scree
             throw EntryError(error.what());
           }
       }
+  }
+
+
+  void Parameters::read_drawing()
+  {
+    std::vector<EntryValue> of_bodies, others;
+    for (const BodyParameters &body : bodies)
+      if (const std::string &layer = body.seeding.source.layer; !layer.empty())
+        of_bodies.emplace_back(body.name, "Layer", layer);
+    if (!water.phreatic_layer.empty())
+      others.emplace_back("Water", "Phreatic layer", water.phreatic_layer);
+    if (!stage.removed_layer.empty())
+      others.emplace_back("Stage", "Remove layer", stage.removed_layer);
+    for (const auto &entries : { of_bodies, others })
+      for (const EntryValue &entry : entries)
+        require_entry(!drawing.empty(), entry, "it is a layer of a drawing. Write its file as \"Drawing\".");
+    if (drawing.empty())
+      return;
+    require_entry(dimension == 2, { "", "Drawing", drawing }, "drawings are for plane scenes. Write an \"Outline\".");
+    const Drawing file(drawing, entry_name("", "Drawing"));
+    const auto map_of = [&](const EntryValue &entry) {
+      return std::make_shared<const SourceMap>(entry, file.areas(entry), grid.lower_corner, grid.upper_corner);
+    };
+    std::vector<EntryValue> at_start; // Bodies of stages may take the place of others.
+    for (const EntryValue &entry : of_bodies)
+      {
+        BodyParameters &body =
+            *std::find_if(bodies.begin(), bodies.end(), [&](const auto &one) { return one.name == entry.subsection; });
+        body.seeding.map = map_of(entry);
+        if (body.added_by.empty())
+          at_start.push_back(entry);
+        else
+          layers_in_use.push_back(entry.value);
+      }
+    for (const EntryValue &entry : others)
+      if (layers_in_use.push_back(entry.value); entry.subsection == "Stage")
+        {
+          require_entry(stage.removed.empty(), entry, "\"Remove\" is there, too. Keep one of the two.");
+          stage.removed_areas = map_of(entry);
+        }
+      else
+        water.phreatic_line = std::make_shared<const Profile>(file.line(entry));
+    const auto of_drawing = file.check(at_start, layers_in_use, grid.cell_size);
+    remarks.insert(remarks.end(), of_drawing.begin(), of_drawing.end());
   }
 
 
@@ -449,7 +505,7 @@ namespace scree
                                                      ". Write \"Material = " + law.name + "\", or remove the entry.");
           if (!file.sets(body.name, "Material")) // a law by default is hardly meant
             throw EntryError(text);
-          unread_laws.push_back("Unusual value: " + text);
+          remarks.push_back("Unusual value: " + text);
         }
   }
 
@@ -559,6 +615,8 @@ namespace scree
             body->added_by = subsection;
             body->is_there = !is_later;
           }
+        if (const std::string layer = file.value(subsection, "Remove layer", ""); !layer.empty())
+          layers_in_use.push_back(layer);
         (is_later ? later_duration : duration_so_far) += number_of(file.value(subsection, "Duration", "0"));
         is_later = is_later || subsection == last;
       }

@@ -226,7 +226,8 @@ namespace scree
                         std::vector<std::string> &remarks)
     {
       const WaterParameters &water = parameters.water;
-      const Region<dim> wet(entry_name("Water", "Phreatic surface"), water.region_in_soil(dim));
+      const Region<dim> wet(
+          entry_name("Water", water.place().first), water.region_in_soil(dim), nullptr, water.table<dim>());
       std::string place;
       for (const SoilBody<dim> &body : bodies)
         for_each_point(body.points, [&](const auto &point) {
@@ -246,8 +247,9 @@ namespace scree
       if (!place.empty())
         remarks.push_back("Unusual value: " +
                           entry_message({ "Water", "Reservoir level", water.reservoir_level },
-                                        "it stands above \"Phreatic surface\" = " + water.phreatic_surface +
-                                            ", beside soil with dry pores, for instance at " + place +
+                                        "it stands above " + quoted(water.place().first) + " = " +
+                                            water.place().second + ", beside soil with dry pores, for instance at " +
+                                            place +
                                             " m. Write the same level for both where they meet, unless the reservoir "
                                             "rises suddenly."));
     }
@@ -309,7 +311,7 @@ namespace scree
                                 is_reservoir ? "Reservoir level" : "Region",
                                 is_reservoir ? entries.reservoir_level : entries.region },
                               remarks);
-          if (is_reservoir && !entries.phreatic_surface.empty())
+          if (is_reservoir && entries.place().first.rfind("Phreatic", 0) == 0)
             add_dry_ground<dim>(parameters, bodies, part.region, communicator, remarks);
         }
   }

@@ -114,14 +114,6 @@ namespace scree
 
   namespace
   {
-    /// Keeps GDAL from writing on the screen what a message contains in any case, as long as the result lives.
-    std::shared_ptr<void> silence_gdal()
-    {
-      CPLPushErrorHandler(CPLQuietErrorHandler);
-      return { nullptr, [](void *) { CPLPopErrorHandler(); } };
-    }
-
-
     /// Programs differ in blanks, signs and case: `CH1903+ / LV95`, `CH1903+_LV95`.
     std::string letters_of_name(const std::string &system)
     {
@@ -155,19 +147,18 @@ namespace scree
       CPLFree(text);
       return wkt;
     }
-
-
-    /// The code of the EPSG if the system has it, else the text of a .prj file; without its vertical part.
-    std::string text_of_system(const OGRSpatialReference &with_heights)
-    {
-      OGRSpatialReference system(with_heights);
-      system.StripVertical();
-      const char *authority = system.GetAuthorityName(nullptr), *code = system.GetAuthorityCode(nullptr);
-      if (authority != nullptr && code != nullptr && std::string(authority) == "EPSG")
-        return std::string("EPSG:") + code;
-      return esri_text(system);
-    }
   } // namespace
+
+
+  std::string text_of_system(const OGRSpatialReference &with_heights)
+  {
+    OGRSpatialReference system(with_heights);
+    system.StripVertical();
+    const char *authority = system.GetAuthorityName(nullptr), *code = system.GetAuthorityCode(nullptr);
+    if (authority != nullptr && code != nullptr && std::string(authority) == "EPSG")
+      return std::string("EPSG:") + code;
+    return esri_text(system);
+  }
 
 
   std::string name_of_system(const std::string &system)
@@ -180,7 +171,7 @@ namespace scree
   bool is_same_system(const std::string &one, const std::string &other, const dealii::Point<2> &place)
   {
     // Names are no proof: projections of one's own are often called "unknown".
-    const auto quiet = silence_gdal();
+    const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
     const auto first = known_system(one), second = known_system(other);
     if (!first || !second)
       return letters_of_name(one) == letters_of_name(other);
@@ -194,7 +185,7 @@ namespace scree
 
   void require_system_in_metres(const std::string &text, const std::string &name)
   {
-    const auto quiet  = silence_gdal();
+    const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
     const auto system = known_system(text);
     if (!system)
       throw EntryError(name + "GDAL knows no such system. Write the code of a projected one, such as EPSG:2056.");
@@ -210,7 +201,7 @@ namespace scree
   {
     if (text.find('[') != std::string::npos)
       return text;
-    const auto quiet  = silence_gdal();
+    const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
     const auto system = known_system(text);
     return system ? esri_text(*system) : "";
   }
@@ -382,7 +373,7 @@ namespace scree
   std::string geo_tiff(const Raster &raster, const std::string &name, const std::string &unit)
   {
     GDALAllRegister();
-    const auto quiet       = silence_gdal();
+    const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
     const char *const file = "/vsimem/scree_map.tif"; // in memory
     const char *options[]  = { "COMPRESS=DEFLATE", nullptr };
     std::unique_ptr<GDALDataset> data(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
@@ -423,8 +414,8 @@ namespace scree
   {
     const std::string name = where + " = " + file + ": ";
     std::ifstream in       = open_text(file, name);
-    const auto quiet       = silence_gdal();
-    const auto data        = open(in, file, name);
+    const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
+    const auto data = open(in, file, name);
     if (const OGRSpatialReference *system = data->GetSpatialRef())
       require_metres(*system, name);
     require_values_in_metres(*data, name);
@@ -469,244 +460,7 @@ namespace scree
   {
     const std::string name = where + " = " + file + ": ";
     std::ifstream in       = open_text(file, name);
-    const auto quiet       = silence_gdal();
+    const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
     return system_of(*open(in, file, name), file);
-  }
-
-
-  namespace
-  {
-    /// Corners of closed lines, m on the map: of an area, the edge and the holes.
-    using Rings = std::vector<Outline::Ring>;
-
-
-    /// Whether two edges have a place in common.
-    bool meet(const Point<2> &a, const Point<2> &b, const Point<2> &c, const Point<2> &d)
-    {
-      for (unsigned int i = 0; i < 2; ++i)
-        if (std::max(a[i], b[i]) < std::min(c[i], d[i]) || std::max(c[i], d[i]) < std::min(a[i], b[i]))
-          return false;
-      // The sign is the side of the line from one place to another.
-      const auto side = [](const Point<2> &from, const Point<2> &to, const Point<2> &x) {
-        const double area = (to[0] - from[0]) * (x[1] - from[1]) - (to[1] - from[1]) * (x[0] - from[0]);
-        return (area > 0.) - (area < 0.);
-      };
-      return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0;
-    }
-
-
-    /// Closes a ring of corners, m on the map, and moves it; the last may repeat the first. Throws EntryError, which
-    /// begins with `name`, if they are fewer than three, or if edges cross or touch.
-    /// @param origin of the case's coordinates
-    Outline::Ring closed_ring(Outline::Ring corners, const std::string &name, const Point<2> &origin)
-    {
-      for (Point<2> &corner : corners)
-        corner -= origin - Point<2>();
-      if (!corners.empty())
-        corners.push_back(corners.front());
-      corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-      const unsigned int n = std::max<std::size_t>(corners.size(), 2) - 1; // edges
-      if (n < 3)
-        throw EntryError(name + "it has " + std::to_string(n) +
-                         " corners. Write three or more, x, y in m, one a line, in their order around the place.");
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = i + 2; j < n; ++j)
-          if ((j + 1) % n != i && meet(corners[i], corners[i + 1], corners[j], corners[j + 1]))
-            throw EntryError(name + "its edge from " + number_text(corners[i]) +
-                             " m is crossed or touched by another. Write the corners in their order around the place.");
-      return corners;
-    }
-
-
-    std::unique_ptr<GDALDataset> open(const std::string &file, const std::string &name)
-    {
-      GDALAllRegister();
-      std::unique_ptr<GDALDataset> data(
-          GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
-      if (!data)
-        throw EntryError(name + "GDAL cannot read it: " + CPLGetLastErrorMsg());
-      return data;
-    }
-
-
-    /// The one layer with geometry: a GeoPackage of QGIS has one of styles, too.
-    OGRLayer &only_layer(GDALDataset &data, const std::string &name)
-    {
-      std::vector<OGRLayer *> layers;
-      for (OGRLayer *layer : data.GetLayers())
-        if (layer->GetGeomType() != wkbNone)
-          layers.push_back(layer);
-      if (layers.size() != 1)
-        throw EntryError(name + "it has " + std::to_string(layers.size()) +
-                         " layers with geometry. Write a file with one layer of polygons.");
-      return *layers.front();
-    }
-
-
-    /// Adds the polygons of a geometry and of its parts.
-    void collect(const OGRGeometry &geometry, const std::string &name, std::vector<Rings> &areas)
-    {
-      const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
-      if (type == wkbPolygon)
-        {
-          areas.emplace_back();
-          for (const OGRLinearRing *ring : *geometry.toPolygon())
-            {
-              areas.back().emplace_back();
-              for (int i = 0; i < ring->getNumPoints(); ++i)
-                areas.back().back().emplace_back(ring->getX(i), ring->getY(i));
-            }
-        }
-      else if (type == wkbMultiPolygon || type == wkbGeometryCollection)
-        for (const OGRGeometry *part : *geometry.toGeometryCollection())
-          collect(*part, name, areas);
-      else
-        throw EntryError(name + "it has geometry of type " + OGRGeometryTypeToName(type) +
-                         ". Write polygons only: areas that the body occupies.");
-    }
-
-
-    /// Areas of a file in a vector format of GDAL, those of multi-polygons one by one, and the attribute `thickness` of
-    /// each, m; no thickness if none has it. Throws EntryError if there is none or anything else.
-    std::pair<std::vector<Rings>, std::vector<double>> read_polygons(const std::string &file, const std::string &name)
-    {
-      const auto quiet = silence_gdal();
-      const auto data  = open(file, name);
-      std::vector<Rings> areas;
-      std::vector<double> thickness;
-      bool is_known = false;
-      for (const auto &feature : only_layer(*data, name))
-        if (const OGRGeometry *geometry = feature->GetGeometryRef(); geometry != nullptr && !geometry->IsEmpty())
-          {
-            collect(*geometry, name, areas);
-            const int field        = feature->GetFieldIndex("thickness"); // in any case of its letters
-            const std::string text = field >= 0 ? feature->GetFieldAsString(field) : "";
-            is_known               = is_known || !text.empty();
-            thickness.resize(areas.size(), number_of(text));
-          }
-      if (areas.empty())
-        throw EntryError(name + "it has no polygon. Draw the area that the body occupies.");
-      for (std::size_t i = 0; is_known && i < areas.size(); ++i)
-        if (!(thickness[i] >= 0.))
-          throw EntryError(name + "the attribute thickness of polygon " + std::to_string(i + 1) +
-                           " is no number from 0 on, in m. Write it for all polygons, or remove the attribute.");
-      return { areas, is_known ? thickness : std::vector<double>() };
-    }
-
-
-    /// The coordinate system of such a file; empty if it has none.
-    std::string system_of_vector_file(const std::string &file, const std::string &name)
-    {
-      const auto quiet                  = silence_gdal();
-      const auto data                   = open(file, name);
-      OGRLayer &layer                   = only_layer(*data, name);
-      const OGRSpatialReference *system = layer.GetSpatialRef();
-      if (system == nullptr)
-        return "";
-      // GDAL takes a GeoJSON file that names no system for one in degrees, as its standard does; in m it cannot be.
-      OGREnvelope box;
-      const bool is_known = layer.GetExtent(&box) == OGRERR_NONE;
-      if (system->IsGeographic() && is_known &&
-          (box.MinX < -360. || box.MaxX > 360. || box.MinY < -90. || box.MaxY > 90.))
-        return "";
-      return text_of_system(*system);
-    }
-
-
-    /// Whether GDAL reads the file, or its name says so; else it is a text of corners, which may look like a CSV file.
-    bool is_vector_file(const std::string &file)
-    {
-      GDALAllRegister();
-      const auto quiet         = silence_gdal();
-      const std::string ending = lower_case(std::filesystem::path(file).extension().string());
-      const GDALDriverH driver = GDALIdentifyDriverEx(file.c_str(), GDAL_OF_VECTOR, nullptr, nullptr);
-      return (driver != nullptr && GDALGetDriverShortName(driver) != std::string("CSV")) || ending == ".geojson" ||
-             ending == ".json" || ending == ".shp" || ending == ".gpkg";
-    }
-  } // namespace
-
-
-  Outline::Outline(std::vector<std::vector<Ring>> areas, std::vector<double> thickness)
-      : areas(std::move(areas))
-      , thickness(std::move(thickness))
-      , box(std::make_pair(this->areas.front().front().front(), this->areas.front().front().front()))
-  {
-    for (const auto &area : this->areas)
-      box.merge_with(BoundingBox<2>(area.front()));
-  }
-
-
-  double Outline::thickness_at(const Point<2> &x) const
-  {
-    const auto is_inside = [&x](const Ring &ring) {
-      bool result = false; // a ray along x crosses an odd number of edges
-      for (unsigned int i = 1; i < ring.size(); ++i)
-        {
-          const Point<2> &a = ring[i - 1], &b = ring[i];
-          if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
-            result = !result;
-        }
-      return result;
-    };
-    double largest = -1.;
-    for (std::size_t i = 0; i < areas.size() && box.point_inside(x); ++i)
-      if (const double of_area = thickness.empty() ? 0. : thickness[i];
-          of_area > largest && is_inside(areas[i].front()) &&
-          std::none_of(areas[i].begin() + 1, areas[i].end(), is_inside))
-        largest = of_area;
-    return largest;
-  }
-
-
-  std::pair<double, double> Outline::range_of_thickness() const
-  {
-    if (thickness.empty())
-      return { 0., 0. };
-    const auto [least, largest] = std::minmax_element(thickness.begin(), thickness.end());
-    return { *least, *largest };
-  }
-
-
-  double Outline::area() const
-  {
-    double sum = 0.;
-    for (const auto &rings : areas)
-      for (std::size_t r = 0; r < rings.size(); ++r)
-        {
-          double twice = 0.;
-          for (std::size_t i = 1; i < rings[r].size(); ++i)
-            twice += rings[r][i - 1][0] * rings[r][i][1] - rings[r][i][0] * rings[r][i - 1][1];
-          sum += (r == 0 ? 0.5 : -0.5) * std::abs(twice);
-        }
-    return sum;
-  }
-
-
-  Outline read_outline(const std::string &file, const std::string &where, const Point<2> &origin)
-  {
-    const std::string name = where + " = " + file + ": ";
-    if (!is_vector_file(file))
-      {
-        Outline::Ring corners;
-        for (const auto &row : read_number_table(file, where, { "x (m)", "y (m)" }, FirstColumn::any))
-          corners.emplace_back(row[0], row[1]);
-        return Outline({ { closed_ring(std::move(corners), name, origin) } });
-      }
-    open_file(file, name);
-    auto [areas, thickness] = read_polygons(file, name);
-    for (std::size_t i = 0; i < areas.size(); ++i)
-      for (Outline::Ring &ring : areas[i])
-        ring = closed_ring(std::move(ring), name + "polygon " + std::to_string(i + 1) + ", ", origin);
-    return Outline(std::move(areas), std::move(thickness));
-  }
-
-
-  std::string read_outline_system(const std::string &file, const std::string &where)
-  {
-    const std::string name = where + " = " + file + ": ";
-    if (!is_vector_file(file))
-      return "";
-    open_file(file, name);
-    return system_of_vector_file(file, name);
   }
 } // namespace scree

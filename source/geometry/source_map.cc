@@ -27,6 +27,8 @@ namespace scree
         "or other vector format of GDAL, or a text file of the corners x, y of one polygon, one per line. "
         "Without \"Thickness\" and \"Upper surface\", an attribute thickness of the polygons, m, is the soil "
         "thickness above the bed.");
+    prm.add_parameter(
+        "Layer", layer, "2D. Layer of \"Drawing\" whose areas the body occupies, in place of \"Region\". Empty: none.");
   }
 
 
@@ -36,7 +38,14 @@ namespace scree
                                   const bool has_bed) const
   {
     const auto [entry, value] = first();
-    require_entry(dim == 3 || !is_set(), { body, entry, value }, "maps are for scenes in space. Write a \"Region\".");
+    require_entry(layer.empty() || (thickness.empty() && upper_surface.empty() && outline.empty()),
+                  { body, entry, value },
+                  "maps are for scenes in space, and layers for plane ones. Keep one of them.");
+    if (!layer.empty())
+      return;
+    require_entry(dim == 3 || !is_set(),
+                  { body, entry, value },
+                  "maps are for scenes in space. Write a \"Region\" or a \"Layer\".");
     require_entry(!has_free_water || !is_set(),
                   { body, entry, value },
                   "free water beside bodies by maps is not possible yet. Water in the pores is: in subsection Water "
@@ -63,7 +72,34 @@ namespace scree
       return read_raster(file, entry_name(body, entry), origin);
     }
 
+
+    /// Throws EntryError unless the areas lie in the box.
+    void require_in_box(const Outline &areas,
+                        const EntryValue &entry,
+                        const std::vector<double> &lower,
+                        const std::vector<double> &upper,
+                        const std::string &remedy)
+    {
+      const auto [first, last] = areas.bounds();
+      const double rounding    = 1e-6 * first.distance(last); // of coordinates of the map
+      require_entry(first[0] >= lower[0] - rounding && first[1] >= lower[1] - rounding &&
+                        last[0] <= upper[0] + rounding && last[1] <= upper[1] + rounding,
+                    entry,
+                    "it reaches from " + number_text(first) + " to " + number_text(last) +
+                        " m, beyond the box of subsection Mesh. " + remedy);
+    }
   } // namespace
+
+
+  SourceMap::SourceMap(const EntryValue &layer,
+                       Outline areas,
+                       const std::vector<double> &lower,
+                       const std::vector<double> &upper)
+      : entry(layer.entry, layer.value)
+      , outline(std::move(areas))
+  {
+    require_in_box(*outline, layer, lower, upper, "Write a larger box, or look at the coordinates of the drawing.");
+  }
 
 
   SourceMap::SourceMap(const SourceMapParameters &parameters,
@@ -99,14 +135,11 @@ namespace scree
         "thickness, or write a \"Region\".");
     require(!areas_have_thickness || ground, "the thickness of its areas is that above a bed. Add subsection Bed.");
     if (outline && !is_raster)
-      {
-        const auto [first, last] = outline->bounds();
-        const double rounding    = 1e-6 * first.distance(last); // of coordinates of the map
-        require(first[0] >= lower[0] - rounding && first[1] >= lower[1] - rounding && last[0] <= upper[0] + rounding &&
-                    last[1] <= upper[1] + rounding,
-                "it reaches from " + number_text(first) + " to " + number_text(last) +
-                    " m, beyond the box of subsection Mesh. Look at its coordinate system, or write a larger box.");
-      }
+      require_in_box(*outline,
+                     { body, "Outline", parameters.outline },
+                     lower,
+                     upper,
+                     "Look at its coordinate system, or write a larger box.");
     if (is_layer())
       check(body, { lower[0], lower[1], lower[2] }, { upper[0], upper[1], upper[2] });
   }

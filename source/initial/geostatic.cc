@@ -242,11 +242,12 @@ namespace scree
       if (water.fringe == 0. || !water.starts_hydrostatic())
         return {};
       const auto [entry, elevation] = water.place();
+      const auto line               = water.phreatic_line;
       const std::shared_ptr<const Expression<dim>> table =
-          parse_expression<dim>(entry_name("Water", entry), elevation, 1);
+          parse_expression<dim>(entry_name("Water", entry), line ? "0" : elevation, 1);
       const double unit_weight = water.density * gravity.norm(), fringe = water.fringe;
-      return [table, unit_weight, fringe](const Point<dim> &x) {
-        const double height = x[dim - 1] - table->value(x);
+      return [table, line, unit_weight, fringe](const Point<dim> &x) {
+        const double height = x[dim - 1] - (line ? line->height(x[0]) : table->value(x));
         return height > 0. && height <= fringe ? unit_weight * height : 0.; // Above it the soil is dry.
       };
     }

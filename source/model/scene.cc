@@ -651,7 +651,7 @@ namespace scree
       const Region<dim> wet(entry_name("Water", entry),
                             parameters.without_fringe().region_in_soil(dim),
                             nullptr,
-                            parameters.table<dim>());
+                            parameters.without_fringe().table<dim>());
       const double top = grid.upper_corner()[dim - 1], bottom = grid.lower_corner()[dim - 1];
       const double rounding = 1e-6 * grid.cell_size();
       on_all_ranks(grid.communicator(), [&] {
@@ -661,7 +661,7 @@ namespace scree
             above[dim - 1]     = top + rounding;
             below[dim - 1]     = bottom - rounding;
             const bool is_high = wet.contains(above);
-            if (is_high || !(wet.contains(below) || parameters.table<dim>()))
+            if (is_high || !wet.contains(below))
               throw ValueError(entry_message({ "Water", entry, value },
                                              std::string("it leaves the box of subsection Mesh ") +
                                                  (is_high ? "through its top" : "through its bottom") + " at " +
@@ -825,9 +825,9 @@ namespace scree
   {
     const StageParameters &stage = parameters.stage;
     StageMasses masses;
-    if (!stage.removed.empty())
+    if (const auto [entry, value] = stage.removal(); !value.empty())
       {
-        const Region<dim> region(entry_name("Stage", "Remove"), stage.removed);
+        const Region<dim> region(entry_name("Stage", entry), stage.removed_areas ? "1" : value, stage.removed_areas);
         const Point<dim> beyond = grid.upper_corner() + (grid.upper_corner() - grid.lower_corner());
         const auto remove       = [&](PointSet<dim> &points) { // beside the mesh they leave the set
           on_all_ranks(communicator, [&] {

@@ -4,7 +4,10 @@
 #include <scree/run/safety.h>
 #include <scree/version.h>
 
+#include <boost/algorithm/string/replace.hpp>
 #include <unistd.h>
+
+#include <cstdlib>
 
 #include <iterator>
 #include <regex>
@@ -21,6 +24,7 @@ namespace scree
       run,
       resume,
       safety,
+      show,
       advise,
       print_parameters,
       new_case,
@@ -58,6 +62,7 @@ namespace scree
     const std::vector<Option> options{ { "--resume", Task::resume, "" },
                                        { "--safety", Task::safety, "" },
                                        { "--stage", {}, "--safety" },
+                                       { "--show", Task::show, "" },
                                        { "--advise", Task::advise, "" },
                                        { "--accuracy", {}, "--advise" },
                                        { "--ranks", {}, "--advise" },
@@ -208,6 +213,7 @@ namespace scree
         case Task::run:
         case Task::resume:
         case Task::safety:
+        case Task::show:
         case Task::advise:
           take_case_file(arguments);
           break;
@@ -242,6 +248,7 @@ namespace scree
              "       scree case.prm --safety [--stage NAME]\n"
              "                                  factor of safety of a slope by strength reduction, at the start or\n"
              "                                  after a stage (the last one without its name)\n"
+             "       scree case.prm --show      draw the scene before it runs, into scene/scene.png of its run folder\n"
              "       scree case.prm --advise [--accuracy 0.05] [--ranks 64]\n"
              "                                  regime, estimated cost and recommendations\n"
              "       scree --new                list of scenes to start from\n"
@@ -423,6 +430,26 @@ namespace scree
     }
 
 
+    /// Writes the points of the start into folder `scene` of the run folder, and draws them. Collective.
+    template <int dim>
+    void show_scene(Parameters &parameters, const MPI_Comm communicator)
+    {
+      parameters.output_directory      = (fs::path(parameters.output_directory) / "scene").string();
+      parameters.settling.maximum_time = 0;
+      parameters.output.graphics       = "points";
+      Simulation<dim>(parameters, Start::fresh, communicator).write_picture();
+      if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
+        return;
+      const std::string program = fs::read_symlink("/proc/self/exe").parent_path() / "scree-render";
+      const auto in_quotes      = [](const std::string &text) {
+        return "'" + boost::algorithm::replace_all_copy(text, "'", "'\\''") + "'";
+      };
+      if (std::system((in_quotes(program) + " --scene " + in_quotes(parameters.output_directory)).c_str()) != 0)
+        throw InputError("--show: no picture is drawn. The points are in " + parameters.output_directory +
+                         "; scree-render --scene draws them where Python and matplotlib are.");
+    }
+
+
     int perform(const Arguments &arguments, const MPI_Comm communicator, std::ostream &out)
     {
       switch (arguments.task)
@@ -447,6 +474,11 @@ namespace scree
             if (!arguments.stage.empty())
               parameters.end_after_stage(arguments.stage);
             return find_safety<dim()>(parameters, communicator);
+          });
+        case Task::show:
+          return run_case(arguments, [&](const auto dim, Parameters &parameters) {
+            show_scene<dim()>(parameters, communicator);
+            return End::complete;
           });
         case Task::advise:
           return run_case(arguments, [&](const auto dim, Parameters &parameters) {

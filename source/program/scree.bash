@@ -43,7 +43,7 @@ _scree()
       continue
     fi
     case ${COMP_WORDS[w]} in
-      --resume | --safety | --advise | --new | --print-parameters | --version | --help | -h) task=${COMP_WORDS[w]} ;;
+      --resume | --safety | --show | --advise | --new | --print-parameters | --version | --help | -h) task=${COMP_WORDS[w]} ;;
       *.prm) case_file=${COMP_WORDS[w]/#\~/$HOME} ;;
     esac
   done
@@ -53,7 +53,7 @@ _scree()
       --advise) _scree_reply <<<$'--accuracy\n--ranks' ;;
       --new) _scree_reply <<<'--overwrite' ;;
       --print-parameters) _scree_reply <<<$'--json\n--sections' ;;
-      '') _scree_reply <<<$'--resume\n--safety\n--advise\n--new\n--print-parameters\n--version\n--help' ;;
+      '') _scree_reply <<<$'--resume\n--safety\n--show\n--advise\n--new\n--print-parameters\n--version\n--help' ;;
     esac
     return
   fi

@@ -72,7 +72,7 @@ namespace scree
     results.cut();
     if (start == Start::resume)
       {
-        if (parameters.stage.name.empty())
+        if (parameters.stage.name.empty() || !parameters.start_folder.empty()) // that of a trial is its own
           record_case(parameters, folder);
         log_case(scene, folder);
         folder.log("Resumed at t = " + number_text(clock.time()) + " s, step " + std::to_string(clock.step()) +
@@ -91,20 +91,21 @@ namespace scree
   {
     const std::string unit   = dim == 2 ? " kg/m" : " kg";
     const StageMasses masses = scene.begin_stage();
-    if (!parameters.stage.removed.empty())
+    const auto removal       = parameters.stage.removal();
+    if (!removal.second.empty())
       folder.log("Removed     soil " + number_text(masses.removed_soil) + unit +
                  (scene.water.empty() ? "" : ", water " + number_text(masses.removed_water) + unit));
     if (!parameters.stage.adds.empty())
       folder.log("Added       soil " + number_text(masses.added_soil) + unit);
-    require_entry(parameters.stage.removed.empty() || masses.removed_soil + masses.removed_water > 0.,
-                  { "Stage", "Remove", parameters.stage.removed },
-                  "no point is there. Look at the expression.");
+    require_entry(removal.second.empty() || masses.removed_soil + masses.removed_water > 0.,
+                  { "Stage", removal.first, removal.second },
+                  "no point is there. Look at the place.");
     require_entry(std::any_of(scene.bodies.begin(),
                               scene.bodies.end(),
                               [](const auto &body) { return body.points.handler().n_global_particles() > 0; }) ||
                       parameters.bodies.empty(),
-                  { "Stage", "Remove", parameters.stage.removed },
-                  "no soil is left. Look at the expression.");
+                  { "Stage", removal.first, removal.second },
+                  "no soil is left. Look at the place.");
     reinit();
     measure_speeds();
     clock.set(clock.time(), clock.step() + 1); // The end of the stage before keeps its checkpoint.

@@ -351,10 +351,13 @@ namespace scree
   {
     require_entry(has_expression() || source.is_set() || is_fed,
                   { body, "Region", region },
-                  "the body has no region. Write one, for instance x < 1 && y < 1");
+                  "the body has no region. Write one, for instance x < 1 && y < 1, or the \"Layer\" of a drawing.");
     require_entry(initial_porosity == -1 || initial_porosity >= 0,
                   { body, "Initial porosity", initial_porosity },
                   "write a number from 0 to 0.999, or -1 for what the material law implies.");
+    require_entry(source.layer.empty() || !has_expression(),
+                  { body, "Layer", source.layer },
+                  "\"Region\" says where the body is, too. Keep one of the two.");
     check_expression(dim, entry_name(body, "Region"), region, 1);
     if (!initial_velocity.empty())
       check_expression(dim, entry_name(body, "Initial velocity"), initial_velocity, dim);
@@ -515,15 +518,19 @@ namespace scree
     const bool as_soil      = parameters.is_where_soil_is();
     std::vector<WaterPart<dim>> parts;
     std::string outside = "(" + parameters.region_outside(dim) + ")";
+    std::vector<std::shared_ptr<const SourceMap>> layers; // of bodies; maps in space exclude free water
     for (const SoilRegion &body : soil)
       {
         const std::string inside =
             as_soil ? body.region : "(" + parameters.region_in_soil(dim) + ") && (" + body.region + ")";
         parts.push_back({ Region<dim>(where, inside, body.map, parameters.table<dim>()), body.porosity, &body });
-        outside += " && (" + body.region + ") == 0";
+        if (body.map)
+          layers.push_back(body.map);
+        else
+          outside += " && (" + body.region + ") == 0";
       }
     if (!parameters.region_outside(dim).empty())
-      parts.push_back({ Region<dim>(where, outside), 1., nullptr });
+      parts.push_back({ Region<dim>(where, outside, nullptr, nullptr, layers), 1., nullptr });
     return parts;
   }
 

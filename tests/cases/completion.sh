@@ -30,6 +30,7 @@ expect()
 expect 'mine.prm my.prm' m
 expect '--resume' --re
 expect '--new' my.prm --n
+expect '--show' my.prm --sh
 expect '--accuracy --ranks' my.prm --advise --
 expect '--json --sections' --print-parameters --
 printf 'subsection Stage Lift 1\nend\n' > staged.prm

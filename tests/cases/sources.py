@@ -189,4 +189,72 @@ def shifted():
         check(largest <= 1e-3, f"{collection}: places differ by {largest} m")
 
 
+SECTION = {"Drawing": "../section.geojson", "Bodies": "Clay, Sand", "End time": 1e-9, "Mesh/Upper corner": "12, 6", "Mesh/Cell size": 0.5, "Output/Graphics": "points"}
+BODY = {"Points per cell": 3, "Material": "linear elastic", "Grain density": 2500, "Initial porosity": 0.4, "Linear elastic/Young's modulus": 1e6}
+DRAWN = {"clay": [(0, 0), (12, 0), (12, 3), (7.3, 2.2), (0, 1)], "sand": [(0, 1), (7.3, 2.2), (12, 3), (12, 5), (9, 5), (4, 3), (0, 3)],
+         "hole": [(9.03, 0.61), (10.97, 0.61), (10.97, 1.71), (9.03, 1.307)], "water table": [(12, 4.1), (5.3, 2.1), (0, 1.7)]}
+EXPRESSIONS = {"clay": "y < if(x < 7.3, 1 + 1.2/7.3*x, 2.2 + 0.8/4.7*(x - 7.3)) && (x > 9.03 && x < 10.97 && y > 0.61 && y < 1.307 + 0.403/1.94*(x - 9.03)) == 0",
+               "sand": "y >= if(x < 7.3, 1 + 1.2/7.3*x, 2.2 + 0.8/4.7*(x - 7.3)) && y < if(x < 4, 3, if(x < 9, 3 + 0.4*(x - 4), 5))",
+               "water table": "if(x < 5.3, 1.7 + 0.4/5.3*x, 2.1 + 2/6.7*(x - 5.3))"}
+
+
+def draw(file, driver):
+    """The section in a format of GDAL. The hole is a ring of the polygon, in DXF a line within a line."""
+    is_dxf = driver == "DXF"
+    data = ogr.GetDriverByName(driver).CreateDataSource(file)
+
+    def add(name, geometry):
+        feature = ogr.Feature(layer.GetLayerDefn())
+        feature.SetField("Layer" if is_dxf else "name", name)
+        feature.SetGeometry(geometry)
+        layer.CreateFeature(feature)
+
+    def line(corners, kind):
+        result = ogr.Geometry(kind)
+        for corner in corners:
+            result.AddPoint_2D(*corner)
+        return result
+    layer = data.CreateLayer("section", geom_type=ogr.wkbUnknown)
+    if not is_dxf:
+        layer.CreateField(ogr.FieldDefn("name", ogr.OFTString))
+    for name, corners in DRAWN.items():
+        if name == "water table":
+            add(name, line(corners, ogr.wkbLineString))
+        elif is_dxf:
+            add(name.replace("hole", "clay"), line(corners + corners[:1], ogr.wkbLineString))
+        elif name != "hole":
+            polygon = ogr.Geometry(ogr.wkbPolygon)
+            for ring in [corners] + [DRAWN["hole"]] * (name == "clay"):
+                polygon.AddGeometry(line(ring + ring[:1], ogr.wkbLinearRing))
+            add(name, polygon)
+
+
+def section():
+    """Layers and water table of a drawing in all formats: the points are those of expressions."""
+    gdal.UseExceptions()
+    bodies = {f"{name}/{entry}": value for name in ("Clay", "Sand") for entry, value in BODY.items()}
+    by_layers = {**SECTION, **bodies, "Clay/Layer": "clay", "Sand/Layer": "sand", "Water/Phreatic layer": "water table", "Water/Air entry pressure": 3e3}
+    by_text = {key: value for key, value in by_layers.items() if key != "Drawing" and not key.endswith("ayer")}
+    by_text |= {"Clay/Region": EXPRESSIONS["clay"], "Sand/Region": EXPRESSIONS["sand"], "Water/Phreatic surface": EXPRESSIONS["water table"]}
+    for level in (None, "4.6"):
+        more = {} if level is None else {"Water/Reservoir level": f"if(x < 6, {level}, 0)"}
+        exact = run(f"expressions_{level}", {**by_text, **more})
+        for file, driver in (("section.geojson", "GeoJSON"), ("section.gpkg", "GPKG"), ("section.dxf", "DXF"), ("section.csv", "CSV")):
+            pathlib.Path(file).unlink(missing_ok=True)
+            if driver == "CSV":
+                rows = [(name, *corner) for name, line in DRAWN.items() if name != "hole" for corner in line]
+                rows += [("clay", *DRAWN["clay"][0])] + [("clay", *corner) for corner in DRAWN["hole"]]
+                pathlib.Path(file).write_text("name,x,y\n" + "".join("%s,%.17g,%.17g\n" % row for row in rows), encoding="utf-8")
+            else:
+                draw(file, driver)
+            drawn = run(f"by_{driver}_{level}", {**by_layers, **more, "Drawing": f"../{file}"})
+            for collection in ("points", "water"):
+                one, other = (read_points(results, 0., collection) for results in (exact, drawn))
+                check(len(one.positions) == len(other.positions) > 1000, f"{file}, {collection}: {len(one.positions)} and {len(other.positions)} points")
+                for name, here, there in (("places", one.positions, other.positions), ("volumes", one.arrays["volume"], other.arrays["volume"]),
+                                          ("pressure", one.arrays.get("pressure", 0.), other.arrays.get("pressure", 0.))):
+                    difference = np.max(np.abs(here - there)) / max(np.max(np.abs(here)), 1e-9)
+                    check(difference <= 1e-9, f"{file}, {collection}: {name} differ by {difference}")
+
+
 globals()[sys.argv[3]]()

@@ -44,11 +44,13 @@ namespace scree
     std::string initial_velocity  = "";            ///< m/s, one expression an axis; empty: at rest
     bool is_fed                   = false;         ///< as SeedingParameters::is_fed
     std::string phreatic_surface  = "";            ///< expression of its elevation, m; empty: not given
+    std::string phreatic_layer    = "";            ///< of the drawing, with its line; empty: not given
     std::string reservoir_level   = "";            ///< expression of the elevation, m; empty: no reservoir
     double air_entry_pressure     = 0;             ///< suction at which air enters the soil, Pa; 0: none
     double fringe                 = 0;             ///< height above given levels up to which it fills the pores, m
     bool is_steady                = false;         ///< whether the pressure in soil is that of steady seepage
     std::string wall_heads        = "";            ///< of it, `Left: 12, Right: 4`, m; empty: none
+    std::shared_ptr<const Profile> phreatic_line;  ///< once the drawing is read; null without
 
     /// Declares the entries in the subsection that is open.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -108,12 +110,14 @@ namespace scree
       return region == "same" && !has_levels();
     }
 
-    /// Sets `fringe` from the air entry pressure, where levels say where water is.
+    /// Sets `fringe` from the air entry pressure, where levels say where water is, and the table of a phreatic line.
     /// @param gravity m/s^2
     void find_fringe(const double gravity)
     {
       if (air_entry_pressure > 0. && gravity > 0. && has_levels())
         fringe = air_entry_pressure / (density * gravity);
+      if (phreatic_line)
+        set_table<2>(std::make_shared<const Profile>(phreatic_line->raised(fringe)));
     }
 
     /// The same water with pores that are full up to the water table only.
@@ -121,13 +125,15 @@ namespace scree
     {
       WaterParameters result = *this;
       result.fringe          = 0.;
+      if (phreatic_line)
+        result.set_table<2>(phreatic_line);
       return result;
     }
 
     /// Whether a phreatic surface, a reservoir level or steady seepage say where water is, in place of the region.
     bool has_levels() const
     {
-      return is_steady || !(phreatic_surface.empty() && reservoir_level.empty());
+      return is_steady || !(phreatic_surface.empty() && phreatic_layer.empty() && reservoir_level.empty());
     }
 
     /// Entry and value that place the water, for messages.
@@ -137,6 +143,8 @@ namespace scree
         return { "Steady seepage", "true" };
       if (!phreatic_surface.empty())
         return { "Phreatic surface", phreatic_surface };
+      if (!phreatic_layer.empty())
+        return { "Phreatic layer", phreatic_layer };
       if (!reservoir_level.empty())
         return { "Reservoir level", reservoir_level };
       return { "Region", region };
@@ -148,8 +156,8 @@ namespace scree
     /// Where water is outside the soil, as an expression; empty: nowhere.
     std::string region_outside(const unsigned int dim) const;
 
-    /// What bounds the water in soil, as a surface whose open is dry: that of steady seepage once it is known. Null
-    /// without.
+    /// What bounds the water in soil, as a surface whose open is dry: a phreatic line, or that of steady seepage once
+    /// it is known. Null without.
     template <int dim>
     const std::shared_ptr<const LevelSet<dim>> &table() const
     {
@@ -172,6 +180,10 @@ namespace scree
           "m; elevation of the water table, an expression of x (3D: x, y). The pores of soil below it are "
           "full, and there is no water outside the soil but that of \"Reservoir level\". Alternative to "
           "\"Region\". The vertical axis is y (3D: z). Empty: not given.");
+      prm.add_parameter("Phreatic layer",
+                        phreatic_layer,
+                        "2D. Layer of \"Drawing\" whose polyline is the water table, in place of \"Phreatic surface\". "
+                        "Beyond its ends it is level. Empty: not given.");
       prm.add_parameter(
           "Reservoir level",
           reservoir_level,

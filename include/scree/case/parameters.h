@@ -134,13 +134,22 @@ namespace scree
   {
     static constexpr const char *prefix = "Stage "; ///< of the names of subsections
 
-    std::string name;              ///< of its subsection, without the prefix; empty: the case itself
-    double duration = 0;           ///< s, after its settling
-    std::string removed;           ///< expression: where soil and water vanish when it begins; empty: nowhere
-    std::vector<std::string> adds; ///< bodies that appear when it begins
+    std::string name;          ///< of its subsection, without the prefix; empty: the case itself
+    double duration = 0;       ///< s, after its settling
+    std::string removed;       ///< expression: where soil and water vanish when it begins; empty: nowhere
+    std::string removed_layer; ///< the same as a layer of the drawing
+    std::shared_ptr<const SourceMap> removed_areas; ///< of that layer; null without
+    std::vector<std::string> adds;                  ///< bodies that appear when it begins
 
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
+
+    /// Entry and value of what vanishes; no value: nothing does.
+    std::pair<std::string, std::string> removal() const
+    {
+      return removed_layer.empty() ? std::make_pair(std::string("Remove"), removed)
+                                   : std::make_pair(std::string("Remove layer"), removed_layer);
+    }
   };
 
   /// Everything a `.prm` file says, checked. Each member's own add_parameters() names its entries.
@@ -160,6 +169,7 @@ namespace scree
     std::string output_directory{ "results/scree" }; ///< the run folder
     std::vector<double> gravity{ 0., -9.81 };        ///< m/s^2, one number an axis
     std::vector<double> local_origin{ 0., 0. };      ///< on the map, m
+    std::string drawing;                             ///< file with the layers of a plane section; empty: none
     std::string coordinate_system;                   ///< of the map, such as EPSG:2056; empty: that of its rasters
 
     GridParameters grid;                       ///< subsection Mesh
@@ -187,7 +197,7 @@ namespace scree
 
     std::string text_of_box; ///< for the log, of a box that follows from the raster; else empty
 
-    std::vector<std::string> unread_laws; ///< for the log, of subsections of laws that are not chosen
+    std::vector<std::string> remarks; ///< for the log, on the drawing and on subsections of laws that are not chosen
 
     bool has_water = false;      ///< whether there is a subsection Water; without it, nothing reads the next three
     WaterParameters water;       ///< subsection Water
@@ -341,9 +351,10 @@ namespace scree
     /// Throws InputError if this or another stage is not possible.
     void check_stages() const;
     void read_maps();
+    void read_drawing();
     void check_dry() const;
 
-    /// Fills `unread_laws`. Throws EntryError if no entry Material chooses the law that is read instead.
+    /// Adds to `remarks`. Throws EntryError if no entry Material chooses the law that is read instead.
     void find_unread_laws(const dealii::ParameterHandler &defaults);
 
     /// Of the stiffest body, m/s; 0 without bodies.
@@ -360,7 +371,8 @@ namespace scree
 
     InputFile file;
     std::vector<NamedFile> named_files;
-    double duration_so_far = 0.; // of the stages up to this one, s
+    double duration_so_far = 0.;            // of the stages up to this one, s
+    std::vector<std::string> layers_in_use; // of the drawing, by others than bodies at the start
     std::vector<std::string> body_names{ "Soil" };
     dealii::ParameterHandler handler;
   };

@@ -312,9 +312,19 @@ namespace scree
     /// See LevelSet::view().
     SurfaceView<2> view(const dealii::Point<2> &x, const double reach) const override;
 
-  private:
+    /// The elevation at a place along x, m.
     double height(const double x) const;
 
+    /// The same line higher up by `height`, m.
+    Profile raised(const double height) const
+    {
+      std::vector<dealii::Point<2>> raised = points;
+      for (dealii::Point<2> &point : raised)
+        point[1] += height;
+      return Profile(std::move(raised));
+    }
+
+  private:
     /// The segment at a place along x: that between points s and s + 1.
     unsigned int segment_at(const double x) const;
 

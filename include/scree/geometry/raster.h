@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+class OGRSpatialReference;
+
 namespace scree
 {
   /// Numbers at the nodes of a regular grid in the plane, row by row with ascending y; NaN where there is none.
@@ -73,6 +75,9 @@ namespace scree
   /// @param name entry and text, for the message: `entry "Coordinate system" = EPSG:1: `
   void require_system_in_metres(const std::string &system, const std::string &name);
 
+  /// The code of the EPSG if the system has it, else the text of a .prj file; without its vertical part.
+  std::string text_of_system(const OGRSpatialReference &system);
+
   /// Whether both texts, each a code or that of a .prj file, are of the same system: also if they name it otherwise but
   /// have the place, m, at the same coordinates. Only names are compared of systems that GDAL does not have.
   bool is_same_system(const std::string &one, const std::string &other, const dealii::Point<2> &place);
@@ -93,59 +98,6 @@ namespace scree
   /// @param name of the band, such as `thickness`
   /// @param unit of its values
   std::string geo_tiff(const Raster &raster, const std::string &name, const std::string &unit);
-
-  /// Areas on the map, such as those of a release; they may overlap.
-  class Outline
-  {
-  public:
-    using Ring = std::vector<dealii::Point<2>>; ///< corners of a closed line, m; the first one is at the end again
-
-    /// @param areas at least one: the edge and the holes of each
-    /// @param thickness of each area, m; empty: not known
-    explicit Outline(std::vector<std::vector<Ring>> areas, std::vector<double> thickness = {});
-
-    /// Whether a place, m, is in an area and in none of its holes.
-    bool contains(const dealii::Point<2> &x) const
-    {
-      return thickness_at(x) >= 0.;
-    }
-
-    /// The largest thickness, m, of the areas that contain a place, 0 if it is not known; -1 outside all of them.
-    double thickness_at(const dealii::Point<2> &x) const;
-
-    /// Smallest and largest thickness of the areas, m; zeros if they are not known.
-    std::pair<double, double> range_of_thickness() const;
-
-    /// Gives all areas the same thickness, m.
-    void set_thickness(const double value)
-    {
-      thickness.assign(areas.size(), value);
-    }
-
-    /// Sum of the areas less their holes, m^2.
-    double area() const;
-
-    /// Lower and upper corner of the box around all areas, m.
-    const std::pair<dealii::Point<2>, dealii::Point<2>> &bounds() const
-    {
-      return box.get_boundary_points();
-    }
-
-  private:
-    std::vector<std::vector<Ring>> areas;
-    std::vector<double> thickness;
-    dealii::BoundingBox<2> box;
-  };
-
-  /// Reads the areas of a file in a vector format of GDAL, and their thickness if they have an attribute of that name;
-  /// else one area from a text of its corners "x, y", m, one a line.
-  /// Throws EntryError, which begins with `where` (see entry_name()), if there is none, if edges cross, or if some
-  /// areas only have a thickness.
-  /// @param origin where the map has the origin of the outline's x and y, m
-  Outline read_outline(const std::string &file, const std::string &where, const dealii::Point<2> &origin);
-
-  /// The coordinate system of an outline, see Raster::system; empty if it is not known.
-  std::string read_outline_system(const std::string &file, const std::string &where);
 } // namespace scree
 
 #endif

@@ -3,17 +3,19 @@
 #define scree_geometry_source_map_h
 
 #include <scree/geometry/bed_parameters.h>
+#include <scree/geometry/drawing.h>
 
 #include <optional>
 
 namespace scree
 {
-  /// Where a body is, by maps: entries of its subsection.
+  /// Where a body is, by maps or by a layer of a drawing: entries of its subsection.
   struct SourceMapParameters
   {
     std::string thickness, ///< file of thicknesses above the bed, or one thickness of all areas of the outline, m
         upper_surface,     ///< file of heights, m
-        outline;           ///< file of polygons on the map, m
+        outline,           ///< file of polygons on the map, m
+        layer;             ///< of the drawing, in the plane
 
     /// Declares the entries in the subsection that the handler is in.
     void add_parameters(dealii::ParameterHandler &prm);
@@ -21,10 +23,10 @@ namespace scree
     /// Throws EntryError at impossible combinations; `body` is the name of the subsection.
     void check(const std::string &body, const unsigned int dim, const bool has_free_water, const bool has_bed) const;
 
-    /// Whether any of the files is given.
+    /// Whether any of them is given.
     bool is_set() const
     {
-      return !thickness.empty() || !upper_surface.empty() || !outline.empty();
+      return !layer.empty() || !thickness.empty() || !upper_surface.empty() || !outline.empty();
     }
 
     /// Whether entry "Thickness" is a number and no file.
@@ -36,6 +38,8 @@ namespace scree
     /// Entry and value of the first that is given, for messages.
     std::pair<std::string, std::string> first() const
     {
+      if (!layer.empty())
+        return { "Layer", layer };
       if (!thickness.empty())
         return { "Thickness", thickness };
       if (!upper_surface.empty())
@@ -46,7 +50,7 @@ namespace scree
 
   /// The part of space that a body's maps bound: above its bed, by less than a thickness or up to an upper surface,
   /// within an outline. Between their values rasters are bilinear; where a thickness is missing it is 0, where a height
-  /// is missing the body is not. Areas of an outline have one thickness each.
+  /// is missing the body is not. Areas of an outline have one thickness each. In the plane: the areas of a layer.
   class SourceMap
   {
   public:
@@ -64,7 +68,20 @@ namespace scree
               const std::vector<double> &lower,
               const std::vector<double> &upper);
 
+    /// The areas of a layer, in the plane. Throws EntryError if they reach beyond the box.
+    /// @param lower, upper corners of the box, m
+    SourceMap(const EntryValue &layer,
+              Outline areas,
+              const std::vector<double> &lower,
+              const std::vector<double> &upper);
+
     /// Whether a place, m, is inside the body.
+    bool contains(const dealii::Point<2> &x) const
+    {
+      return outline->contains(x);
+    }
+
+    /// The same in space.
     bool contains(const dealii::Point<3> &x) const
     {
       if (outline && !outline->contains({ x[0], x[1] }))

@@ -10,31 +10,31 @@
 namespace scree
 {
   /// A part of space: inside where an expression of the coordinates is true (not 0), and maps agree if there are any;
-  /// of water also where a water table is above.
+  /// of water also where a water table is above, and not where others are.
   template <int dim>
   class Region
   {
   public:
     /// @param where entry_name(), for the message if the expression does not parse
-    /// @param map null without maps; not in 2D
+    /// @param map null without maps or a layer
     /// @param table whose open is dry; null without
+    /// @param others what they contain is outside
     Region(const std::string &where,
            const std::string &expression,
-           const std::shared_ptr<const SourceMap> &map       = nullptr,
-           const std::shared_ptr<const LevelSet<dim>> &table = nullptr)
+           const std::shared_ptr<const SourceMap> &map                 = nullptr,
+           const std::shared_ptr<const LevelSet<dim>> &table           = nullptr,
+           const std::vector<std::shared_ptr<const SourceMap>> &others = {})
         : function(parse_expression<dim>(where, expression, 1))
         , map(map)
         , table(table)
+        , others(others)
     {
     }
 
     /// Throws ValueError if the expression is no number there.
     bool contains(const dealii::Point<dim> &x) const
     {
-      if constexpr (dim == 3)
-        if (map && !map->contains(x))
-          return false;
-      return holds(x);
+      return !(map && !map->contains(x)) && holds(x);
     }
 
     /// Places that touches_cube() looks at.
@@ -53,7 +53,8 @@ namespace scree
     /// What is asked besides the maps.
     bool holds(const dealii::Point<dim> &x) const
     {
-      return function->value(x) != 0. && !(table && table->is_open(x));
+      return function->value(x) != 0. && !(table && table->is_open(x)) &&
+             std::none_of(others.begin(), others.end(), [&](const auto &other) { return other->contains(x); });
     }
 
     /// Corners of the cube, a little inside it: a region may end at its face.
@@ -72,6 +73,7 @@ namespace scree
     std::unique_ptr<Expression<dim>> function;
     std::shared_ptr<const SourceMap> map;
     std::shared_ptr<const LevelSet<dim>> table;
+    std::vector<std::shared_ptr<const SourceMap>> others;
   };
 
   /// A point to be.

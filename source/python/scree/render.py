@@ -4,7 +4,7 @@
 scree-render results/quickstart --field deviatoric_stress --times 0,0.5,1
 
 Writes points.png, of the soil, water.png, of the water, and statistics.png into the run folder; what is asked for (--field, --times, --limits)
-is part of a picture's name. Instead of these, --animate makes films (points.gif and points.mp4), --probe NAME draws a probe, and --paraview
+is part of a picture's name. Instead of these, --scene draws the scene at the start (scene.png, as scree --show does), --animate makes films (points.gif and points.mp4), --probe NAME draws a probe, and --paraview
 writes show_in_paraview.py, a state script for ParaView.
 
 Plane runs: each pixel of the material has the colour of its nearest point. 3D runs: a surface around the material, with mean colours, and spheres
@@ -20,6 +20,7 @@ from scree.command import Command
 from scree.pictures.fields import FIELDS
 from scree.pictures.panels import WRITERS, animate_points, has_collection, render_points
 from scree.pictures.paraview import write_state
+from scree.pictures.scene import render_scene
 from scree.pictures.tables import DEFAULT_PANELS, PANELS, render_probe, render_statistics
 
 DEFAULT_FIELDS = {"points": "mean_effective_stress", "water": "pressure"}  # of each collection, unless the soil slides
@@ -113,6 +114,11 @@ def _draw_films(arguments, chosen, name_of, numbers):
 
 def draw(arguments):
     """Draws what the command line asks for. Throws OSError or ValueError."""
+    if arguments.scene:
+        output = _output(arguments, "" if arguments.output else "scene")
+        render_scene(arguments.run, output, _numbers("--view", arguments.view, 2))
+        print(f"Wrote {output}")
+        return
     times, limits, view = _numbers("--times", arguments.times), _numbers("--limits", arguments.limits, 2), _numbers("--view", arguments.view, 2)
     chosen = _collections(arguments)
     only = len(chosen) == 1 and arguments.output
@@ -144,6 +150,7 @@ def main():
     parser = Command("scree-render", __doc__)
     parser.add_argument("run", type=pathlib.Path, help="run folder, for instance results/quickstart")
     parser.add_argument("--probe", help="names of probes, separated by commas: a picture each of their lines or time series, and nothing else")
+    parser.add_argument("--scene", action="store_true", help="the scene at the start and nothing else: bodies, water, ground, walls, loads, probes")
     parser.add_argument("--collection", choices=list(DEFAULT_FIELDS), help="points of the soil or of the water; default: both, a picture each")
     parser.add_argument("--field", help=f"{', '.join(FIELDS)} or any array of the file; default: of soil that slides displacement, "
                         "or velocity where it is not written, else mean_effective_stress; pressure of water")

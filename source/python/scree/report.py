@@ -166,6 +166,8 @@ def picture_commands(run, field, times):
     run = pathlib.Path(run)
     at_times = ["--times", times] if times else []
     commands = {"points": [], "charts": [], "maps": []}
+    if (run / "solution" / "points.pvd").exists():
+        commands["points"].append(("Scene at the start", "render", ["--scene"]))
     for collection, caption in (("points", "Soil points"), ("water", "Water points")):
         if (run / "solution" / f"{collection}.pvd").exists():
             asked = ["--field", field] if field and collection == "points" else []
