@@ -50,6 +50,16 @@ def check_end(results, name):
     compare(("wanted.csv", "end.csv"), 1e-6)
 
 
+def write_ends():
+    """Writes ends.csv anew after a change that is meant: SHORT_CASES=build/tests/cases python3 tests/cases/runs.py build/scree "" write_ends all."""
+    names = [row["case"] for row in rows_of(HERE / "ends.csv")]
+    rows = [rows_of(fresh(name, read_case(os.path.join(os.environ["SHORT_CASES"], f"{name}.prm")), 1) / "statistics.csv")[-1] for name in names]
+    with open(HERE / "ends.csv", "w", encoding="utf-8") as table:
+        writer = csv.DictWriter(table, ["case", *dict.fromkeys(column for row in rows for column in row)], lineterminator="\n")
+        writer.writeheader()
+        writer.writerows({"case": name, **{column: f"{float(value):.9g}" for column, value in row.items()}} for name, row in zip(names, rows))
+
+
 def restart(same, other, ranks=2):
     """After some hundred steps, the end is that of ends.csv, and all statistics of one rank and of two (or `ranks`) agree to `other`. A run that goes on from its checkpoint ends as if
     it had not stopped, to `same` on as many ranks (points keep their order), and to `other` on more or fewer (sums have another order).
