@@ -4,13 +4,15 @@
 Each test is a function below (case_tools.py).
 """
 
+import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
 from scree.results import read_table
-from scree.variants import set_entries
+from scree.variants import read_entries, set_entries
 
 from case_tools import HERE, LAUNCHER, SCREE, check, log_of
 
@@ -22,6 +24,13 @@ def printed(*command, wanted=0):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     check(done.returncode == wanted, f"{command}: exit code {done.returncode}, {done.stderr}")
     return done.stdout
+
+
+def refused(*command):
+    """The error of a command."""
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    check(done.returncode == 1, f"accepted: {command}")
+    return done.stderr
 
 
 def require(text, *patterns):
@@ -94,7 +103,8 @@ def screen():
         rest = iter(log.splitlines())
         lines = [line for line in text.splitlines() if not line.startswith("Setting up ")]
         check(all(line in rest for line in lines), f"the screen is no excerpt of {log}")
-        for detail in (r"Libraries   deal\.II.*", "Compiler .*", ".*points to grid.*", "Soil at the end.*", "Largest memory.*"):
+        for detail in (r"Libraries   deal\.II.*", r"Compiler    \w+ [0-9.]+, (Release|Debug), flags .*-O\d.*", r"Process     \d+ on \S+ \(first rank\)",
+                       r"In use      [1-9]\d+ MB at the start \(all ranks\)", ".*points to grid.*", "Soil at the end.*", "Largest memory.*"):
             require(log, detail)
 
     # Soil that falls out of the box exceeds a bound.
@@ -105,6 +115,41 @@ def screen():
     table = read_table(pathlib.Path("results/statistics.csv"))
     share = 100 * table["Mass lost (kg)"][-1] / table["Mass (kg)"][0]
     check(found and abs(float(found[1]) / share - 1) < 0.01, f"{share} % lost: {text}")
+
+
+def new_case():
+    """--new lists scenes and writes the case of each, which runs; no file is replaced without being asked. The program alone is enough."""
+    shutil.rmtree("new", ignore_errors=True)
+    pathlib.Path("new/sub").mkdir(parents=True)
+    os.chdir("new")
+    scree = shutil.copy(SCREE, pathlib.Path("copy").resolve())
+    scenes = re.findall(r"^  ([a-z_]+) ", printed(scree, "--new"), re.MULTILINE)
+    check(len(scenes) >= 12, f"scenes: {scenes}")
+    for scene in scenes:
+        check(f"Written: {scene}.prm" in printed(scree, "--new", scene), f"{scene} is not written")
+        text, entries = pathlib.Path(f"{scene}.prm").read_text(encoding="utf-8"), read_entries(f"{scene}.prm")
+        require(text, f"set Output directory = results/{scene}", "#.*")
+        check(20 <= float(entries["End time"]) / float(entries["Output/Interval"]) <= 32.001, f"pictures of {scene}")
+        pathlib.Path("short.prm").write_text(set_entries(text, {"End time": 0.2}), encoding="utf-8")
+        require(printed(scree, "short.prm"), "Checks.*", r"Finished.* ([2-9]|[1-9]\d+) steps.*")
+    check(pathlib.Path("mountain.asc").stat().st_size > 0, "the mountain has no raster")
+    # The command that is named next is not refused: --advise is, where points enter.
+    require(printed(scree, "--new", "debris_flow", "flow.prm", "--overwrite"), "Next: scree flow.prm")
+    require(printed(scree, "--new", "slope", "bank.prm"), "Next: scree bank.prm --advise, then scree bank.prm")
+    # A changed file stays; an equal one is no obstacle.
+    printed(scree, "--new", "slope")
+    mine = pathlib.Path("slope.prm").read_text(encoding="utf-8") + "# mine\n"
+    pathlib.Path("slope.prm").write_text(mine, encoding="utf-8")
+    check(re.search("slope.prm: the file exists.*--overwrite", refused(scree, "--new", "slope")), "a changed file is not named")
+    check(pathlib.Path("slope.prm").read_text(encoding="utf-8") == mine, "a changed file is replaced")
+    printed(scree, "--overwrite", "--new", "slope")
+    check("mine" not in pathlib.Path("slope.prm").read_text(encoding="utf-8"), "--overwrite does not replace it")
+    # Another name, and other ranks: one of them writes.
+    printed(*LAUNCHER, "2", scree, "sub/bank.prm", "--new", "slope")
+    require(pathlib.Path("sub/bank.prm").read_text(encoding="utf-8"), "set Output directory = results/bank")
+    printed(scree, "--new", "terrain", "sub/hill.prm")
+    check(pathlib.Path("sub/release.asc").stat().st_size > 0, "no raster beside the case")
+    check("cannot be written" in refused(scree, "--new", "slope", "nowhere/slope.prm"), "a folder that is not there")
 
 
 globals()[sys.argv[3]]()

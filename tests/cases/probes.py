@@ -134,7 +134,8 @@ def balance_of_momentum(results, axes="xy"):
 
 
 def edges():
-    """The balance in 3D, with walls of all kinds that meet at edges and corners."""
+    """The balance in 3D, with walls of all kinds that meet at edges and corners; a linear velocity at the start is that of each place with soil, also on
+    walls and in corners, and a wedge has the thickness, height and front of its slope."""
     results = run("edges", {
         "Dimension": 3, "End time": 0.02, "Gravity": "0, 0, -9.81", "Mesh/Lower corner": "0, 0, 0", "Mesh/Upper corner": "0.6, 0.4, 0.6",
         "Boundaries/Left": "friction 20", "Boundaries/Front": "fixed", "Boundaries/Bottom": "friction 30",
@@ -145,6 +146,20 @@ def edges():
     crest = read_table(results / "probe_crest.csv")
     check(abs(crest["Surface height (m)"][0] - 0.4) < 1e-9 and abs(crest["Thickness (m)"][0] - 0.4) < 1e-9, "height in 3D")
     check(abs(read_table(results / "probe_toe.csv")["Velocity x (m/s)"][0] + 0.2) < 1e-9, "velocity at the start")
+    results = run("linear", {
+        "Dimension": 3, "End time": 1e-6, "Gravity": "0, 0, -9.81", "Mesh/Lower corner": "-0.3, 0, 0", "Mesh/Upper corner": "0.9, 0.4, 0.8", "Mesh/Cell size": 0.1,
+        "Soil/Region": "x < 0.7 && z < 0.3 + 0.25*(0.9 - x)", "Soil/Points per cell": 3, "Soil/Initial velocity": "1 + x + 2*y + 3*z; 2*x - z; y", "Output/Graphics": "none",
+        "Probes/Places": "inside: 0.123, 0.11, 0.25; wall: 0.2, 0, 0; corner: -0.3, 0.4, 0; beside: 0.85, 0.1, 0.1; above: 0.1, 0.1, 0.75",
+        "Probes/Verticals": "mid: 0.3, 0.37; left: -0.3, 0", "Probes/Front thickness": 0.4})
+    for name, (x, y, z) in (("inside", (0.123, 0.11, 0.25)), ("wall", (0.2, 0, 0)), ("corner", (-0.3, 0.4, 0)), ("beside", (np.nan, 0, 0)), ("above", (np.nan, 0, 0))):
+        found = [read_table(results / f"probe_{name}.csv")[f"Velocity {axis} (m/s)"][0] for axis in "xyz"]
+        wanted = [1 + x + 2 * y + 3 * z, 2 * x - z, y] if name in ("inside", "wall", "corner") else 3 * [np.nan]
+        check(np.allclose(found, wanted, atol=1e-9, equal_nan=True), f"{name}: {found}, not {wanted}")
+    for name, x in (("mid", 0.3), ("left", -0.3)):
+        table, wanted = read_table(results / f"probe_{name}.csv"), 0.3 + 0.25 * (0.9 - x)
+        check(abs(table["Thickness (m)"][0] / wanted - 1) < 0.02 and abs(table["Surface height (m)"][0] - wanted) < 0.02, f"{name}: {table} for {wanted}")
+    front = read_table(results / "probe_front.csv")
+    check(abs(front["Front (m)"][0] - 0.5) < 0.02 and front["Rear (m)"][0] == -0.3, f"front of a thickness of 0.4 m: {front}")
 
 
 def displacements(results):

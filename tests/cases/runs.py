@@ -4,6 +4,7 @@
 Each test is a function below, whose arguments are numbers or "none" (case_tools.py).
 """
 
+import csv
 import os
 import re
 import shutil
@@ -12,7 +13,7 @@ import sys
 
 from scree.variants import read_case, read_entries, set_entries
 
-from case_tools import HERE, LAUNCHER, SCREE, check, log_of, run
+from case_tools import HERE, LAUNCHER, SCREE, check, log_of, rows_of, run
 from compare_statistics import compare
 
 CASE = os.path.join(os.environ["SHORT_CASES"], sys.argv[4])
@@ -37,8 +38,30 @@ def statistics(*folders):
     return [str(folder / "statistics.csv") for folder in folders]
 
 
+def check_end(results, name):
+    """The last row of the statistics of a case on one rank is its row of ends.csv, which has nothing in columns that it does not have."""
+    wanted, = (row for row in rows_of(HERE / "ends.csv") if row.pop("case") == name)
+    wanted = {column: value for column, value in wanted.items() if value}
+    for file, row in (("wanted.csv", wanted), ("end.csv", rows_of(results / "statistics.csv")[-1])):
+        with open(file, "w", encoding="utf-8") as table:
+            writer = csv.DictWriter(table, row)
+            writer.writeheader()
+            writer.writerow(row)
+    compare(("wanted.csv", "end.csv"), 1e-6)
+
+
+def write_ends():
+    """Writes ends.csv anew after a change that is meant: SHORT_CASES=build/tests/cases python3 tests/cases/runs.py build/scree "" write_ends all."""
+    names = [row["case"] for row in rows_of(HERE / "ends.csv")]
+    rows = [rows_of(fresh(name, read_case(os.path.join(os.environ["SHORT_CASES"], f"{name}.prm")), 1) / "statistics.csv")[-1] for name in names]
+    with open(HERE / "ends.csv", "w", encoding="utf-8") as table:
+        writer = csv.DictWriter(table, ["case", *dict.fromkeys(column for row in rows for column in row)], lineterminator="\n")
+        writer.writeheader()
+        writer.writerows({"case": name, **{column: f"{float(value):.9g}" for column, value in row.items()}} for name, row in zip(names, rows))
+
+
 def restart(same, other, ranks=2):
-    """After some hundred steps, all statistics of one rank and of two (or `ranks`) agree to `other`. A run that goes on from its checkpoint ends as if
+    """After some hundred steps, the end is that of ends.csv, and all statistics of one rank and of two (or `ranks`) agree to `other`. A run that goes on from its checkpoint ends as if
     it had not stopped, to `same` on as many ranks (points keep their order), and to `other` on more or fewer (sums have another order).
 
     `other` is far above rounding, which grows with the steps, and far below anything that a lost point or node would do. The newest checkpoint of the
@@ -47,6 +70,7 @@ def restart(same, other, ranks=2):
     """
     text = read_case(CASE + ".prm")
     one, several = (fresh(str(n), text, n) for n in (1, int(ranks)))
+    check_end(one, os.path.basename(CASE))
     compare(statistics(one, several), other)
     if same is not None:
         for before, after, tolerance in ((one, 1, same), (several, 1, other), (one, 2, other)):
@@ -56,7 +80,9 @@ def restart(same, other, ranks=2):
 def thin_3d_is_2d(tolerance):
     """A slice in 3D, one cell thick between smooth walls (CASE_3d), is the plane strain run (CASE_2d) at the end, per metre of thickness. In the plane the
     points are the same; cell averages are, too."""
-    compare(statistics(*(fresh(f"{dim}d", read_case(f"{CASE}_{dim}d.prm"), dim - 1) for dim in (2, 3))), tolerance, 0.1)
+    plane, space = (fresh(f"{dim}d", read_case(f"{CASE}_{dim}d.prm"), dim - 1) for dim in (2, 3))
+    check_end(plane, f"{os.path.basename(CASE)}_2d")
+    compare(statistics(plane, space), tolerance, 0.1)
 
 
 def follows_points(tolerance):

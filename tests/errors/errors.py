@@ -16,7 +16,8 @@ A case of "| " lines has those as its file instead of entries, \\xHH is a byte o
 "$ scree --resume valid.prm" in the place of an entry is a command line other than "scree NAME.prm".
 "! TEXT" is all of standard error, with exit code 1: "scree: NAME.prm, line N: TEXT", where N is the line of the entry or
 subsection that the text names, and without a line if the case does not contain it. "! scree..." is the whole message,
-"! nothing" a run without an error.
+"! nothing" a run without an error. Of such a run's log "= TEXT" is a part of a line, and "? TEXT" one of a question, of which there are no others;
+"? none" if there are none.
 """
 
 import argparse
@@ -49,7 +50,8 @@ class Case:
         self.name, self.place = block.name, block.place
         self.content, at = (quoted(block), {}) if any(line[0] == "|" for line in block.lines) else parameter_file(entries(block, bases))
         command = [line[2:] for line in block.lines if line[0] == "$"] or [f"scree {self.name}.prm"]
-        said = [line[2:] for line in block.lines if line[0] == "!"]
+        self.questions, self.logged = ([line[2:] for line in block.lines if line[0] == mark] for mark in "?=")
+        said = ["nothing"] if self.questions or self.logged else [line[2:] for line in block.lines if line[0] == "!"]
         if len(command) != 1 or len(said) != 1:
             raise SystemExit(f"{self.place}: there are {len(said)} messages. A case has one: ! TEXT, or ! nothing")
         self.program, *self.arguments = shlex.split(command[0])
@@ -64,9 +66,13 @@ class Case:
         line = at.get((named[1] + "/" if named[1] else "") + (named[2] or ""))
         return f"{self.program}: {self.name}.prm{f', line {line}' if line else ''}: {text}\n"
 
-    def fault(self, codes, got):
+    def fault(self, codes, got, log):
         """What is not as expected, or ""."""
-        fault = ""
+        asked = [line for line in log if re.search("Unusual value:|Base stronger", line)] if self.questions else []
+        wanted = [text for text in self.questions if text != "none"]
+        fault = "".join(f"the log does not have: {text}\n" for text in wanted + self.logged if not any(text in line for line in log))
+        if len(asked) != len(wanted):
+            fault += f"the log asks {asked}\n"
         if got != self.expected:
             fault += f"expected: {self.expected!r}\n     got: {got!r}\n"
         if set(codes) != {self.code}:
@@ -135,7 +141,8 @@ def run_in_process(cases, folder, command):
             yield f"{case.name} ({case.place}) did not end.\n"
         else:
             got = b"".join(file.read_bytes() for file in sorted(results.glob(f"{case.name}.error.*")))
-            yield case.fault([int(word) for word in codes.read_text().split()], got)
+            log = results / f"{case.name}.log"
+            yield case.fault([int(word) for word in codes.read_text().split()], got, log.read_text(encoding="utf-8").splitlines() if log.exists() else [])
 
 
 def main():

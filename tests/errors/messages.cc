@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // messages LIST FOLDER RESULTS: runs the cases of errors.py one after the other in this process. A line of LIST has a
 // name, scree or scree-element, and the arguments, with tabs between them. FOLDER has all files of the cases. Of each
-// case come NAME.error.RANK, all that was written to standard error, and NAME.codes, the exit codes of the ranks, into
-// RESULTS.
+// case come NAME.error.RANK, all that was written to standard error, NAME.codes, the exit codes of the ranks, and
+// NAME.log, the log of a run in results, into RESULTS.
 //
 // A case finds what a program of its own would find: the files of FOLDER and nothing else, and its own communicator. On
 // several ranks the cases run in the reverse order: what one of them left to the next would show.
@@ -150,6 +150,8 @@ namespace
             std::ofstream out(results / (one.name + ".codes"));
             for (const int code_of_rank : codes)
               out << code_of_rank << ' ';
+            if (fs::exists("results/log.txt"))
+              fs::copy_file("results/log.txt", results / (one.name + ".log"));
             for (const fs::path &file : files_of(folder))
               if (files.count(file) == 0)
                 fs::remove_all(file);

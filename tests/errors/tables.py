@@ -18,6 +18,9 @@ import re
 import sys
 
 
+MARKS = "|!$?="  # of lines that are no entries
+
+
 @dataclasses.dataclass
 class Block:
     """A block of a table: its kind, the words of its first line, that line's place, its entries, and its lines of another kind (errors.py)."""
@@ -30,8 +33,8 @@ class Block:
 
     def add(self, line):
         """Adds a line, or what stands behind the colon of the first one."""
-        for part in [line] if self.kind == "file" or line[0] in "|!$" else line.split(" | "):
-            (self.lines if self.kind == "file" or part[0] in "|!$" else self.parts).append(part)
+        for part in [line] if self.kind == "file" or line[0] in MARKS else line.split(" | "):
+            (self.lines if self.kind == "file" or part[0] in MARKS else self.parts).append(part)
 
 
 def blocks(table):

@@ -24,9 +24,23 @@ DRY_STEPS = 50
 MODULUS = 1e4  # Young's, Pa
 
 
-def nearest(points, places):
-    """The number of the point of a picture next to each place."""
-    return np.linalg.norm(points.positions[None, :, :2] - places[:, None], axis=2).argmin(1)
+def walk(of, phases, table, n_steps):
+    """Steps of a reference, whose kinetic energy is that of the program."""
+    for row in range(1, n_steps//STEPS_PER_ROW + 1):
+        for _ in range(STEPS_PER_ROW):
+            of.step(*phases)
+        check(f"kinetic energy after {row*STEPS_PER_ROW} steps: relative difference", abs(table["Kinetic energy (J)"][row]/of.kinetic_energy(*phases) - 1), 0, 1e-9)
+    check("steps of the program: difference", abs(table["Step"][-1] - n_steps), 0, 0)
+
+
+def compare_points(name, picture, points, scale, **fields):
+    """Places, over a scale, m, velocities and further fields, {name: (values, scale)}, of a reference's points are those of the nearest ones of the program."""
+    match = np.linalg.norm(picture.positions[None, :, :2] - points.x[:, None], axis=2).argmin(1)
+    check(f"points of {name}: number of those without one of the program", len(points.x) - len(np.unique(match)), 0, 0)
+    check(f"positions of {name}: largest difference over {scale:g} m", np.abs(picture.positions[match, :2] - points.x).max()/scale, 0, 1e-6)
+    for field, (values, largest) in {"velocity": (points.v, np.abs(points.v).max()), **fields}.items():
+        found = picture.arrays[field][match]
+        check(f"{field} of {name}: largest difference over its scale", np.abs((found[:, :2] if values.ndim == 2 else found) - values).max()/largest, 0, 1e-6)
 
 
 def wet_step(scree):
@@ -42,23 +56,10 @@ def wet_step(scree):
         "Water/Points per cell": reference.PER_CELL, "Water/Density": reference.WATER_DENSITY,
         "Water/Hydraulic conductivity": reference.CONDUCTIVITY, "Water/Initial pressure": "none", "Water/Pressure/Relative tolerance": "1e-12",
         "Output/Graphics": "points", "Output/Interval": STEPS*reference.TIME_STEP, "Output/Statistics interval": STEPS_PER_ROW*reference.TIME_STEP})
-    phases = reference.start()
-    for row in range(1, STEPS//STEPS_PER_ROW + 1):
-        for _ in range(STEPS_PER_ROW):
-            reference.step(*phases)
-        check(f"kinetic energy after {row*STEPS_PER_ROW} steps: relative difference",
-              abs(table["Kinetic energy (J)"][row]/reference.kinetic_energy(*phases) - 1), 0, 1e-9)
-    check("steps of the program: difference", abs(table["Step"][-1] - STEPS), 0, 0)
-    for name, collection, points in zip(("soil", "water"), ("points", "water"), phases):
-        picture = read_points("wet_step", collection=collection)
-        match = nearest(picture, points.x)
-        check(f"points of {name}: number of those without one of the program", len(points.x) - len(np.unique(match)), 0, 0)
-        check(f"positions of {name}: largest difference over the cell size",
-              np.abs(picture.positions[match, :2] - points.x).max()/reference.H, 0, 1e-6)
-        check(f"velocities of {name}: largest difference over the largest one",
-              np.abs(picture.arrays["velocity"][match, :2] - points.v).max()/np.abs(points.v).max(), 0, 1e-6)
-    check("pressure of the water points: largest difference over the largest one",
-          np.abs(picture.arrays["pressure"][match] - phases[1].p).max()/phases[1].p.max(), 0, 1e-6)
+    soil, water = phases = reference.start()
+    walk(reference, phases, table, STEPS)
+    compare_points("soil", read_points("wet_step"), soil, reference.H)
+    compare_points("water", read_points("wet_step", collection="water"), water, reference.H, pressure=(water.p, water.p.max()))
 
 
 def dry_step(scree):
@@ -68,21 +69,9 @@ def dry_step(scree):
         "Time step/Courant number": 2, "Time step/Advection number": 1, "Time step/Maximum time step": dry_reference.TIME_STEP,
         "Output/Graphics": "points", "Output/Interval": DRY_STEPS*dry_reference.TIME_STEP, "Output/Statistics interval": STEPS_PER_ROW*dry_reference.TIME_STEP})
     soil = dry_reference.start()
-    for row in range(1, DRY_STEPS//STEPS_PER_ROW + 1):
-        for _ in range(STEPS_PER_ROW):
-            dry_reference.step(soil)
-        check(f"kinetic energy after {row*STEPS_PER_ROW} steps: relative difference",
-              abs(table["Kinetic energy (J)"][row]/dry_reference.kinetic_energy(soil) - 1), 0, 1e-9)
-    check("steps of the program: difference", abs(table["Step"][-1] - DRY_STEPS), 0, 0)
-    picture = read_points("dry_step")
-    match = nearest(picture, soil.x)
-    check("points of soil: number of those without one of the program", len(soil.x) - len(np.unique(match)), 0, 0)
-    for name, values, of_program, scale in (
-            ("positions", soil.x, picture.positions[match, :2], soil.x.max()),
-            ("velocities", soil.v, picture.arrays["velocity"][match, :2], np.abs(soil.v).max()),
-            ("mean effective stress", -soil.stress.mean(1), picture.arrays["mean_effective_stress"][match], np.abs(soil.stress).max()),
-            ("plastic shear strain", soil.shear, picture.arrays["plastic_shear_strain"][match], soil.shear.max())):
-        check(f"{name}: largest difference over their scale", np.abs(of_program - values).max()/scale, 0, 1e-6)
+    walk(dry_reference, [soil], table, DRY_STEPS)
+    compare_points("soil", read_points("dry_step"), soil, soil.x.max(), mean_effective_stress=(-soil.stress.mean(1), np.abs(soil.stress).max()),
+                   plastic_shear_strain=(soil.shear, soil.shear.max()))
 
 
 def errors_of(scree, method, end, entries, exact):

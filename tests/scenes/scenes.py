@@ -10,9 +10,9 @@ import os
 
 import numpy as np
 
-from scree.variants import read_case, set_entries
+from scree.variants import set_entries
 
-from scene_tools import NO_STRESS, ROOT, at, check, check_balances, check_fall, check_gain, largest_fall, main, mean_oscillation, run
+from scene_tools import NO_STRESS, at, check, check_balances, check_fall, check_gain, largest_fall, main, mean_oscillation, run
 
 
 def columns(scree):
@@ -95,18 +95,6 @@ def thrown_block(scree):
     check("fixed wall: energy taken over that brought", table["Wall dissipation (J)"][-1] / brought, 0, 0.1)
     check("fixed wall: energy given back over it", largest_fall(table["Wall dissipation (J)"]) / brought, 0, 1e-12)
     check_gain("fixed wall", table, 2e-3, brought)
-
-
-def obstacle(scree):
-    """A dry column runs against a rigid block and comes to rest behind it; by FLIP, whose points take the nodes' change of velocity:
-    momentum tells whether soil feels the block's mass beside its own (residual .0045 if it does)."""
-    text = read_case(os.path.join(ROOT, "prm", "columns", "column_dense.prm"))
-    with open("obstacle.prm", "w", encoding="utf-8") as file:
-        file.write("set Bodies = Soil, Block\n" + text + "\nsubsection Block\n  set Region   = x > 1.5 && x < 2 && y < 0.5\n"
-                   "  set Material = rigid\nend\n")
-    table = run(scree, os.path.abspath("obstacle"), "obstacle_run", {"Mesh/Cell size": "0.1", "End time": "1"})
-    check("obstacle: front 99 % of the soil that moves, m (without block 2.17)", at(table, "Front 99 % (m)", 1), 1.2, 1.6)
-    check_balances("obstacle", table)
 
 
 def shaken_block(scree):

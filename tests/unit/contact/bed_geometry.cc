@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Distances and normals of rigid ground: of a profile and of a raster of heights against the nearest of many places on
 // it, of an expression that is no distance against the closed form; where the ground is missing; and as the mesh
-// samples an arc, at rest and moved; from places one by one and in batches, of ground in parts, too.
+// samples an arc, at rest (moved: scenes/obstacle_moving_tank); from places one by one and in batches, of ground in
+// parts, too.
 #include "../test.h"
 
 #include <scree/geometry/bed_parameters.h>
@@ -165,40 +166,6 @@ void test_samples()
 }
 
 
-/// A surface that has moved is what it was, seen from where it is now.
-template <int dim>
-void test_moved_samples()
-{
-  const BackgroundGrid<dim> grid(grid_box<dim>(0., 1.), MPI_COMM_WORLD);
-  const ExpressionSurface<dim> plane(
-      "", dim == 2 ? "0.6*(x - 0.43) + 0.8*(y - 0.52)" : "0.6*(x - 0.43) + 0.8*(z - 0.52)", 0.1);
-  DiscreteLevelSet<dim> sampled(grid, plane, SurfaceMotion::rigid);
-  RandomNumbers random;
-  for (unsigned int k = 0; k < 40; ++k)
-    {
-      const Tensor<1, dim> displacement = k == 0 ? random.point<dim>(0.1, 0.1) : random.point<dim>(-0.4, 0.4);
-      sampled.move_to(displacement);
-      unsigned int n_near = 0;
-      for (const auto &cell : grid.triangulation().active_cell_iterators())
-        {
-          const Point<dim> place = random.point<dim>(0., 1.);
-          const Point<dim> x     = cell->vertex(0) + 0.1 * Tensor<1, dim>(place);
-          const double distance  = plane.view(x - displacement, 1.).distance;
-          const unsigned int i   = cell->active_cell_index();
-          require(sampled.is_near(i) || std::abs(distance) > sampled.reach(), "moved: not near");
-          if (!sampled.is_near(i))
-            continue;
-          ++n_near;
-          require(distance >= sampled.least_distance(i), "moved: least distance");
-          // Farther away than the lattice reaches for sure, the distance is a bound.
-          if (std::abs(distance) < sampled.reach() - 0.1 * std::sqrt(dim))
-            expect(sampled.view(i, place).distance, distance, 1e-12, "moved: distance");
-        }
-      require(n_near > 0, "moved: no cell is near");
-    }
-}
-
-
 /// Distances in batches are those of the nearest part, in the cells of the places and beside them.
 template <int dim>
 void test_batches()
@@ -240,8 +207,6 @@ const UnitTest registered("bed_geometry", [] {
   test_expression();
   test_samples<2>();
   test_samples<3>();
-  test_moved_samples<2>();
-  test_moved_samples<3>();
   test_batches<2>();
   test_batches<3>();
 });

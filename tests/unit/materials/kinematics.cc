@@ -132,7 +132,7 @@ const UnitTest registered("kinematics", [] {
       "Mohr-Coulomb", MohrCoulomb(parameters.of<MohrCoulombParameters>()), { { -0.01, -0.01, -0.01 } }, random);
   test_potential("Nor-Sand", NorSand(parameters.of<NorSandParameters>()), { { -2e-3, -2e-3, -2e-3 } }, random);
 
-  for (const std::string law : { "linear elastic", "Mohr-Coulomb", "Nor-Sand" })
+  for (const std::string law : { "linear elastic", "Mohr-Coulomb", "Nor-Sand", "viscoinertial grains" })
     {
       test_objectivity(law, 7e-4, 2e-4, 1000, 1e-9); // one sub-step an update
       if (law != "Nor-Sand")

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What rigid ground leaves open of the cells: volume, moments of third degree, hat functions and the ground's own area
 // and normal, of planes at any angle and place to rounding, of a circle and a sphere to second order; ground on cells'
-// faces; the mass of bodies that are seeded on planes.
+// faces.
 #include "../test.h"
 
 #include <scree/geometry/bed_parameters.h>
 #include <scree/mesh/cut_cells.h>
-#include <scree/particles/region.h>
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -179,49 +178,10 @@ void test_ball()
 }
 
 
-/// Mass of a body of cubes on a plane, beside a wall, below another plane along it.
-template <int dim>
-void test_seeds()
-{
-  Plane<dim> plane;
-  plane.origin    = dim == 2 ? Point<dim>(0., 0.23) : Point<dim>(0., 0.11, 0.23);
-  plane.normal[0] = -0.45;
-  if (dim == 3)
-    plane.normal[1] = 0.2;
-  plane.normal[dim - 1] = 0.9;
-  plane.normal /= plane.normal.norm();
-  const std::string distance  = dim == 2 ? "-0.45*x + 0.9*(y - 0.23)" : "-0.45*x + 0.2*(y - 0.11) + 0.9*(z - 0.23)";
-  const double scale          = dim == 2 ? std::sqrt(0.45 * 0.45 + 0.81) : std::sqrt(0.45 * 0.45 + 0.04 + 0.81);
-  const auto volume_of_region = [&](const std::string &expression) {
-    const Region<dim> region("", expression);
-    const unsigned int n = 40;
-    double sum           = 0;
-    for (unsigned int i = 0; i < Utilities::fixed_power<dim>(n); ++i)
-      {
-        Point<dim> lower;
-        for (unsigned int a = 0, rest = i; a < dim; ++a, rest /= n)
-          lower[a] = (rest % n) / double(n);
-        sum += region.part_of_cube(lower, 1. / n, &plane).first;
-      }
-    return sum;
-  };
-  Plane<dim> above = plane;
-  above.origin += 0.2 * plane.normal;
-  const double beyond = exact(plane).first, slab = beyond - exact(above).first;
-  expect(volume_of_region("1") / beyond, 1., 1e-9, "volume over a plane");
-  expect(
-      volume_of_region(distance + " < " + Utilities::to_string(0.2 * scale, 16)) / slab, 1., 1e-6, "volume of a slab");
-  if (dim == 2) // a triangle between the plane, the wall and the water's surface: above x = 0 the plane is at y = .23
-    expect(volume_of_region("y < 0.6") / (0.5 * 0.37 * 0.74), 1., 1e-6, "volume of a triangle");
-}
-
-
 const UnitTest registered("bed_cells", [] {
   test_planes<2>();
   test_planes<3>();
   test_ball<2>();
   test_ball<3>();
-  test_seeds<2>();
-  test_seeds<3>();
 });
 } // namespace test_bed_cells

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Drag of grains: Ergun's gradient of the pressure at all speeds, the law of a given conductivity. Soil and water at a
-// node, tied by drag: the equations hold for any drag and any walls, momentum is kept, the limits are right; a step
-// whose drag grows with the slip.
+// Drag of grains, of a given conductivity (Ergun's: scenes/packed_bed). Soil and water at a node, tied by drag: the
+// equations hold for any drag and any walls, momentum is kept, the limits are right; a step whose drag grows with the
+// slip.
 #include "../test.h"
 
 #include <scree/bodies/phases.h>
@@ -9,30 +9,6 @@
 
 namespace test_drag
 {
-/// Ergun 1952: gradient of the pressure, Pa/m, at a superficial velocity U, m/s.
-double ergun(const double n, const double d, const double mu, const double rho, const double U)
-{
-  return 150. * mu * std::pow(1. - n, 2) / (std::pow(n, 3) * d * d) * U +
-         1.75 * rho * (1. - n) / (std::pow(n, 3) * d) * U * U;
-}
-
-/// Water flows through grains of 3 mm; the steady gradient is drag over porosity.
-void compare_with_ergun(const double n)
-{
-  WaterParameters water;
-  water.density        = 998.;
-  water.viscosity      = 1.3e-3;
-  water.grain_diameter = 3e-3;
-  const DragLaw law(water, 0.4);
-  for (double U = 1e-8; U < 100.; U *= 2.)
-    {
-      const double gradient = (law.linear(n) + (1. - n) * law.inertial(n) * U) * U / n;
-      expect(gradient / ergun(n, 3e-3, 1.3e-3, 998., U), 1., 1e-14, "gradient over Ergun's");
-    }
-  const double slow = 998. * 9.81 / (ergun(n, 3e-3, 1.3e-3, 998., 1e-20) / 1e-20);
-  expect(law.conductivity(n) / slow, 1., 1e-12, "conductivity over rho_w g/gradient of slow flow");
-}
-
 /// The slip of a step solves its equation, for any walls along the axes or along an angle that the slip has, too.
 void solve_steps()
 {
@@ -130,9 +106,6 @@ void solve_pairs()
 }
 
 const UnitTest registered("drag", [] {
-  for (const double n : { 0.3, 0.4, 0.9 })
-    compare_with_ergun(n);
-
   WaterParameters water;
   water.conductivity = 2e-2;
   expect(DragLaw(water, 0.4).conductivity(0.5), 2e-2, 1e-16, "constant conductivity");

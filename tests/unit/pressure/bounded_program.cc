@@ -188,15 +188,8 @@ void run_of_dimension()
 }
 
 
-void run()
-{
+const UnitTest registered("bounded_program", [] {
   run_of_dimension<2>();
   run_of_dimension<3>();
-  std::cout << "ok" << std::endl;
-}
-
-const UnitTest registered("bounded_program", run);
+});
 } // namespace test_bounded_program
-
-// Output:
-// ok

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The numbers of an advice that follow from those of a scene: groups against hand calculation, regimes over the
+// The numbers of an advice that follow from those of a scene (groups: cases/advise_block): regimes over the
 // conductivity, cell sizes that divide the box, steps as the clock takes them, cost in proportion.
 #include "../test.h"
 
@@ -46,30 +46,6 @@ SceneNumbers slope()
 
   scene.largest_wave_speed = WaveMedium{ 7e6, 4e6, 1500 }.speed();
   return scene;
-}
-
-void test_groups()
-{
-  const Groups column = groups_of(terzaghi());
-  expect(column.consolidation_coefficient, 0.113263, 1e-6, "Terzaghi: c_v, m^2/s");
-  expect(column.drainage_time, 8.829, 1e-3, "Terzaghi: drainage time, s");
-  expect(column.time_factor, 1, 1e-4, "Terzaghi: T_v");
-  expect(column.cells_over_height, 20, 1e-9, "Terzaghi: cells over the height");
-  // Q = n^2 rho_w g/k = 1.5696e6 N s/m^4; soil 1590, water 400 kg/m^3
-  expect(column.drag_time / (1590. * 400. / 1990. / 1.5696e6), 1, 1e-6, "Terzaghi: drag time");
-  expect(column.motion_time * std::sqrt(1e6 / 0.9 / 1590), 1, 1e-6, "Terzaghi: time H/c of a wave");
-
-  const Groups groups = groups_of(slope()); // M = 9.3333e6 Pa, rho = 1500 + 400 kg/m^3
-  expect(groups.motion_time, 0.451524, 1e-6, "Slope: sqrt(H/g), s");
-  expect(groups.own_strain, 3.99407e-3, 1e-8, "Slope: rho g H/M");
-  expect(groups.shear_stress_ratio, 9.3195e-3, 1e-8, "Slope: rho g H/G");
-  expect(groups.mach_number, 5.61535e-2, 1e-7, "Slope: Mach number");
-  expect(groups.drainage, 1.86227, 1e-5, "Slope: drainage over motion");
-
-  SceneNumbers dry = slope();
-  dry.has_water    = false;
-  expect(dry.density(), 1500, 0, "Dry: density");
-  expect(groups_of(dry).drainage, 0, 0, "Dry: drainage");
 }
 
 void expect_regime(const SceneNumbers &scene, const std::string &expected)
@@ -260,7 +236,6 @@ void test_cost()
 }
 
 const UnitTest registered("advice_groups", [] {
-  test_groups();
   test_regimes();
   test_resolution();
   test_cost();
