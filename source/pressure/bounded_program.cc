@@ -160,7 +160,7 @@ namespace scree
       if (solution.pressures[i] == least[i])
         is_held[i] = true;
     for (unsigned int k = 0; k < solution.tractions.size(); ++k)
-      if (GroundRow<dim> &row = (*rows)[k]; row.is_unilateral && !row.presses(solution.tractions[k]))
+      if (GroundRow<dim> &row = (*rows)[k]; row.is_unilateral && !presses(k))
         row.holds_across = false;
   }
 
@@ -195,11 +195,8 @@ namespace scree
       {
         free_remaining = remaining;
         restrict_to_free(free_remaining);
-        if (result.n < most)
-          {
-            preconditioner(preconditioned, free_remaining);
-            restrict_to_free(preconditioned);
-          }
+        preconditioner(preconditioned, free_remaining);
+        restrict_to_free(preconditioned);
         std::array<double, 4> sums{
           { local_square(free_remaining), find_release(scratch), free_remaining * preconditioned, energy() }
         };

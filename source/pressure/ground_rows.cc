@@ -48,8 +48,7 @@ namespace scree
         const double porosity   = of_mixture ? of_mixture->porosity(node) : 0.;
         const bool acts         = mass > 0. && (row.phase == Phase::soil || porosity > 0.);
         of_flow.push_back(acts ? row.area * std::min(facet.shapes[i], mass / least_mass) : 0.);
-        if (of_mixture)
-          of_discharge.push_back(of_flow.back() * (row.phase == Phase::soil ? -1. : acts ? 1. / porosity - 1. : 0.));
+        of_discharge.push_back(of_flow.back() * (row.phase == Phase::soil ? -1. : acts ? 1. / porosity - 1. : 0.));
         if (acts)
           flow += of_flow.back() * vector_of<dim>(values + NodalField<dim>::velocity);
       }
@@ -60,7 +59,6 @@ namespace scree
   void GroundRows<dim>::add_forces(const Vectors &tractions, FlowField<dim> &forces) const
   {
     const unsigned int n_nodes = grid.n_nodes_per_cell();
-    const bool is_wet          = !of_discharge.empty();
     for (unsigned int k = 0; k < all.size(); ++k)
       {
         const Tensor<1, dim> traction = tractions[k];
@@ -72,7 +70,7 @@ namespace scree
             double *force = forces[nodes[i]];
             for (unsigned int c = 0; c < dim; ++c)
               force[c] -= of_flow[j] * traction[c];
-            for (unsigned int c = 0; c < dim && is_wet; ++c)
+            for (unsigned int c = 0; c < dim; ++c)
               force[dim + c] -= of_discharge[j] * traction[c];
           }
       }
@@ -83,7 +81,6 @@ namespace scree
   void GroundRows<dim>::find_flows(const FlowField<dim> &flow, Vectors &result) const
   {
     const unsigned int n_nodes = grid.n_nodes_per_cell();
-    const bool is_wet          = !of_discharge.empty();
     result.resize(all.size());
     for (unsigned int k = 0, first = 0; k < all.size(); ++k, first += n_nodes)
       {
@@ -93,8 +90,7 @@ namespace scree
           {
             const double *of_node = flow[nodes[i]];
             flows += of_flow[first + i] * load_row(of_node);
-            if (is_wet)
-              discharges += of_discharge[first + i] * load_row(of_node + start_of_discharge<dim>);
+            discharges += of_discharge[first + i] * load_row(of_node + start_of_discharge<dim>);
           }
         for (unsigned int c = 0; c < dim; ++c)
           result[k][c] = flows[c] + discharges[lane_of_discharge<dim> + c];
@@ -103,102 +99,28 @@ namespace scree
 
 
   template <int dim>
-  void GroundRows<dim>::set_diagonals(const FlowField<dim> &inverse_masses, const double time_step)
-  {
-    for (unsigned int k = 0; k < all.size(); ++k)
-      {
-        all[k].diagonal = 0.;
-        for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
-          all[k].diagonal +=
-              weight(k, i) * (weight(k, i) * time_step * inverse_masses[nodes(k)[i]][unsigned(all[k].phase)]);
-      }
-  }
-
-
-  template <int dim>
   void GroundRows<dim>::set_responses(const FlowField<dim> &inverse_masses, const double time_step)
   {
-    set_diagonals(inverse_masses, time_step);
-    unsigned int n_numbers = 0;
+    const unsigned int n_nodes = grid.n_nodes_per_cell();
+    unsigned int n_numbers     = 0;
     number_of_node.assign(2 * grid.numbering().n_local(), dealii::numbers::invalid_unsigned_int);
     corners.clear();
     responses.clear();
     for (unsigned int k = 0; k < all.size(); ++k)
-      for (unsigned int i = 0; i < grid.n_nodes_per_cell(); ++i)
-        {
-          const unsigned int node = nodes(k)[i], phase = unsigned(all[k].phase);
-          unsigned int &number = number_of_node[2 * node + phase];
-          if (number == dealii::numbers::invalid_unsigned_int)
-            number = n_numbers++;
-          corners.push_back(number);
-          responses.push_back(weight(k, i) * time_step * inverse_masses[node][phase]);
-        }
-    motions.resize(n_numbers);
-  }
-
-
-  template <int dim>
-  bool GroundRows<dim>::begin(Vectors &source, Vectors &solution)
-  {
-    bool rubs = false;
-    for (unsigned int k = 0; k < all.size(); ++k)
       {
-        GroundRow<dim> &row   = all[k];
-        const double pressing = row.traction * row.normal;
-        row.holds_across      = !row.is_unilateral || pressing > 0.;
-        row.holds_along       = !row.is_unilateral && row.friction > 0.;
-        if (row.is_unilateral && (pressing <= 0. || row.friction == 0.))
-          row.traction = std::max(pressing, 0.) * row.normal;
-        source[k]   = row.flow;
-        solution[k] = row.traction;
-        rubs        = rubs || (row.is_unilateral && row.friction > 0.);
-      }
-    return rubs;
-  }
-
-
-  template <int dim>
-  void GroundRows<dim>::add_compliances(const Vectors &tractions, Vectors &flows) const
-  {
-    constexpr double regularisation = 1e-7; // the rows of small facets nearly depend on those beside them
-    for (unsigned int k = 0; k < all.size(); ++k)
-      {
-        flows[k] += regularisation * all[k].diagonal * tractions[k];
-        if (all[k].holds_along)
-          flows[k] += all[k].compliance * all[k].along(tractions[k]);
-      }
-  }
-
-
-  template <int dim>
-  void GroundRows<dim>::choose_friction(Vectors &tractions, Vectors &residual)
-  {
-    // A row responds by more than its diagonal. By the sum of its row, those of small facets swing between stick and
-    // slip.
-    constexpr double part_of_response    = 0.3;
-    constexpr double most_over_available = 1e6; // Less friction than that is none.
-    for (unsigned int k = 0; k < all.size(); ++k)
-      {
-        GroundRow<dim> &row      = all[k];
-        Tensor<1, dim> &traction = tractions[k];
-        if (!row.is_unilateral || row.friction == 0.)
-          continue;
-        row.holds_across = row.holds_along = row.presses(traction);
-        if (!row.holds_across)
+        all[k].diagonal = 0.;
+        for (unsigned int i = 0; i < n_nodes; ++i)
           {
-            traction       = Tensor<1, dim>();
-            row.compliance = 0.;
-            continue;
+            const unsigned int node = nodes(k)[i], phase = unsigned(all[k].phase);
+            unsigned int &number = number_of_node[2 * node + phase];
+            if (number == dealii::numbers::invalid_unsigned_int)
+              number = n_numbers++;
+            corners.push_back(number);
+            responses.push_back(weight(k, i) * time_step * inverse_masses[node][phase]);
+            all[k].diagonal += weight(k, i) * responses.back();
           }
-        const Tensor<1, dim> along = row.along(traction), slip = row.along(residual[k]) + row.compliance * along;
-        const double step      = part_of_response * row.diagonal;
-        const double available = row.friction * (traction * row.normal);
-        const double needed    = (along + slip / step).norm();
-        const double before    = row.compliance;
-        row.compliance = needed > available ? step * std::min(needed / available - 1., most_over_available) : 0.;
-        residual[k] -= (row.compliance - before) * along;
-        row.limit_friction(traction);
       }
+    motions.resize(n_numbers);
   }
 
 

@@ -164,15 +164,13 @@ namespace scree
                                                                            Budget<dim> &balance)
   {
     constexpr double coarser = 3.; // of the solve that friction is found from
-    const bool rubs =
-        ground && Utilities::MPI::logical_or(ground->begin(program.source.tractions, program.solution.tractions),
-                                             grid.communicator());
-    const double tolerance = find_tolerance(relative);
+    const bool rubs          = start_rows();
+    const double tolerance   = find_tolerance(relative);
     start_pressures(solution, least, holds_pressure);
     SolveReport report = converge(rubs ? coarser * tolerance : tolerance, balance);
     if (rubs)
       {
-        ground->choose_friction(program.solution.tractions, program.residual().tractions);
+        choose_friction();
         program.find_residual();
         report.made_preconditioner = converge(tolerance, balance).made_preconditioner || report.made_preconditioner;
       }
@@ -187,8 +185,14 @@ namespace scree
     operators.vmult(target, source);
     for (unsigned int i = 0; i < target.pressures.size(); ++i)
       target.pressures[i] += storage[i] * source.pressures[i];
-    if (ground)
-      ground->add_compliances(source.tractions, target.tractions);
+    constexpr double regularisation = 1e-7; // the rows of small facets nearly depend on those beside them
+    for (unsigned int k = 0; k < target.tractions.size(); ++k)
+      {
+        const GroundRow<dim> &row = ground->all[k];
+        target.tractions[k] += regularisation * row.diagonal * source.tractions[k];
+        if (row.holds_along)
+          target.tractions[k] += row.compliance * row.along(source.tractions[k]);
+      }
   }
 
 
@@ -205,6 +209,26 @@ namespace scree
         target.pressures[i] += part_of_diagonal / diagonal[i] * source.pressures[i];
     if (ground)
       ground->precondition(source.tractions, target.tractions);
+  }
+
+
+  template <int dim>
+  bool PorePressure<dim>::start_rows()
+  {
+    bool rubs = false;
+    for (unsigned int k = 0; ground && k < ground->all.size(); ++k)
+      {
+        GroundRow<dim> &row   = ground->all[k];
+        const double pressing = row.traction * row.normal;
+        row.holds_across      = !row.is_unilateral || pressing > 0.;
+        row.holds_along       = !row.is_unilateral && row.friction > 0.;
+        if (row.is_unilateral && (pressing <= 0. || row.friction == 0.))
+          row.traction = std::max(pressing, 0.) * row.normal;
+        program.source.tractions[k]   = row.flow;
+        program.solution.tractions[k] = row.traction;
+        rubs                          = rubs || (row.is_unilateral && row.friction > 0.);
+      }
+    return ground && Utilities::MPI::logical_or(rubs, grid.communicator());
   }
 
 
@@ -253,7 +277,7 @@ namespace scree
     if (ground) // Friction must not depend on whether there is a guess.
       {
         start();
-        ground->choose_friction(program.solution.tractions, program.residual().tractions);
+        choose_friction();
       }
     if (!holds_pressure)
       surface.take(first, guess);
@@ -263,6 +287,38 @@ namespace scree
       {
         guess.assign(diagonal.size(), 0.);
         start();
+      }
+  }
+
+
+  template <int dim>
+  void PorePressure<dim>::choose_friction()
+  {
+    // A row responds by more than its diagonal. By the sum of its row, those of small facets swing between stick and
+    // slip.
+    constexpr double part_of_response    = 0.3;
+    constexpr double most_over_available = 1e6; // Less friction than that is none.
+    for (unsigned int k = 0; k < ground->all.size(); ++k)
+      {
+        GroundRow<dim> &row      = ground->all[k];
+        Tensor<1, dim> &traction = program.solution.tractions[k];
+        if (!row.is_unilateral || row.friction == 0.)
+          continue;
+        row.holds_across = row.holds_along = program.presses(k);
+        if (!row.holds_across)
+          {
+            traction       = Tensor<1, dim>();
+            row.compliance = 0.;
+            continue;
+          }
+        const Tensor<1, dim> along = row.along(traction),
+                             slip  = row.along(program.residual().tractions[k]) + row.compliance * along;
+        const double step          = part_of_response * row.diagonal;
+        const double available     = row.friction * (traction * row.normal);
+        const double needed        = (along + slip / step).norm();
+        row.compliance = needed > available ? step * std::min(needed / available - 1., most_over_available) : 0.;
+        if (along.norm() > available)
+          traction -= (1. - available / along.norm()) * along;
       }
   }
 

@@ -113,7 +113,8 @@ namespace scree
       {
         GroundRows<dim> &rows =
             group.contact.find_rows(bodies, group.number, group.soil.field, forces.mass_scaling(), time_step);
-        group.contact.count_rows(group.tractions.solve(rows, group.soil.field, time_step, budget), time_step, budget);
+        group.tractions.solve(rows, group.soil.field, time_step, budget);
+        group.contact.count_rows(group.tractions, time_step, budget);
       }
   }
 

@@ -61,9 +61,16 @@ namespace scree
     void find_residual();
 
     /// What the last iteration left of the source, or find_residual() found.
-    Vector &residual()
+    const Vector &residual() const
     {
       return remaining;
+    }
+
+    /// Whether the traction of a row presses on the ground.
+    bool presses(const unsigned int k) const
+    {
+      constexpr double rounded = 1e-14;
+      return solution.tractions[k] * (*rows)[k].normal > rounded * solution.tractions[k].norm();
     }
 
     /// This rank's part of x S x/2 - x b of the solution, with its residual.

@@ -65,26 +65,7 @@ namespace scree
     dealii::Tensor<1, dim> traction_of(const dealii::Tensor<1, dim> &flow) const
     {
       const dealii::Tensor<1, dim> taken = held_part(flow), tangential = along(taken);
-      return diagonal > 0. ? (taken - tangential) / diagonal + tangential / (diagonal + compliance)
-                           : dealii::Tensor<1, dim>();
-    }
-
-    /// Whether a traction, Pa, presses on the ground.
-    bool presses(const dealii::Tensor<1, dim> &of_row) const
-    {
-      constexpr double rounded = 1e-14;
-      return of_row * normal > rounded * of_row.norm();
-    }
-
-    /// Takes from the traction of a unilateral row, Pa, what friction does not allow.
-    void limit_friction(dealii::Tensor<1, dim> &of_row) const
-    {
-      if (!is_unilateral)
-        return;
-      const dealii::Tensor<1, dim> tangential = along(of_row);
-      const double available                  = friction * (of_row * normal);
-      if (const double size = tangential.norm(); size > available)
-        of_row -= (1. - available / size) * tangential;
+      return (taken - tangential) / diagonal + tangential / (diagonal + compliance);
     }
 
     /// The part of a vector along the ground.
@@ -129,24 +110,9 @@ namespace scree
     /// Flow into the ground at the rows, m^dim/s: N times a flow whose ghosts hold values.
     void find_flows(const FlowField<dim> &flow, Vectors &result) const;
 
-    /// Finds the diagonal of the rows.
+    /// Finds the diagonal of the rows, and what precondition() needs.
     /// @param inverse_masses of a node's soil (first number) and water (second), with drag, 1/kg
-    void set_diagonals(const FlowField<dim> &inverse_masses, const double time_step);
-
-    /// Does so, and finds what precondition() needs.
     void set_responses(const FlowField<dim> &inverse_masses, const double time_step);
-
-    /// Puts flows and first guess of the rows into a program, and sets what is held at first; returns whether this rank
-    /// has a row with friction.
-    bool begin(Vectors &source, Vectors &solution);
-
-    /// Adds to the flows of tractions, m^dim/s, those of the compliances.
-    void add_compliances(const Vectors &tractions, Vectors &flows) const;
-
-    /// Chooses the compliances along the ground anew, so that friction is what Coulomb's law allows.
-    /// @param tractions of a solve, Pa; those that friction does not allow are lessened
-    /// @param residual what it left of the flows, m^dim/s; to be found again if friction allows less than a traction
-    void choose_friction(Vectors &tractions, Vectors &residual);
 
     /// Sets `tractions` to those of one symmetric sweep of Gauss-Seidel over this rank's rows, from 0: an approximate
     /// inverse of dt N A^-1 N^T with the compliances, symmetric and positive, on what the ground holds.

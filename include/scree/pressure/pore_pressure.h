@@ -135,8 +135,16 @@ namespace scree
     /// The tolerance of the residual, m^dim/s; sets how rows count. Collective.
     double find_tolerance(const double relative);
 
+    /// Puts source and first guess of the rows into the program, and what of them is held at first. Collective.
+    /// @return whether there are some with friction on any rank
+    bool start_rows();
+
     /// Chooses friction, puts the first guess of the pressures into the program and finds the residual. Collective.
     void start_pressures(const VertexVector &first, const double least, const bool holds_pressure);
+
+    /// Chooses the compliances of the rows along the ground anew, so that friction is what Coulomb's law allows, from
+    /// the residual, which is to be found again.
+    void choose_friction();
 
     /// Solves the program from its solution until the residual, m^dim/s, is accepted. Collective.
     SolveReport converge(const double accepted, Budget<dim> &balance);

@@ -5,7 +5,7 @@
 #include <scree/contact/turbulent_friction.h>
 #include <scree/contact/bodies/body_contact.h>
 #include <scree/contact/cut_cells/cut_cell_contact.h>
-#include <scree/contact/cut_cells/dry_contact.h>
+#include <scree/contact/cut_cells/traction_solver.h>
 #include <scree/momentum/explicit_update.h>
 #include <scree/schemes/scheme.h>
 #include <scree/momentum/solid_phase.h>
@@ -109,7 +109,7 @@ namespace scree
       ExplicitUpdate<dim> momentum;
       GroundGaps<dim> ground_gaps;
       CutCellContact<dim> contact; ///< with rigid ground
-      DryContact<dim> tractions;
+      TractionSolver<dim> tractions;
     };
 
     /// Those at nodes with these constraints, which groups may share; made where there are none yet.

@@ -215,8 +215,7 @@ namespace scree
     const unsigned int n_nodes     = grid.n_nodes_per_cell();
     const auto has_enough_at_nodes = [&](const CutFacet<dim> &segment) {
       const unsigned int *nodes = grid.nodes(segment.cell);
-      if (!field.is_active_at(nodes[n_nodes / 2]) || // the largest mass there
-          field[nodes[n_nodes / 2]][NodalField<dim>::mass] <= 0.)
+      if (field[nodes[n_nodes / 2]][NodalField<dim>::mass] <= 0.) // the largest there
         return false;
       double mass = 0.; // mean over the segment
       for (unsigned int i = 0; i < n_nodes; ++i)
@@ -369,9 +368,7 @@ namespace scree
 
 
   template <int dim>
-  void CutCellContact<dim>::count_rows(const typename GroundRows<dim>::Vectors &working,
-                                       const double time_step,
-                                       Budget<dim> &balance)
+  void CutCellContact<dim>::count_rows(const TractionSolver<dim> &solver, const double time_step, Budget<dim> &balance)
   {
     balance.obstacles.resize(n_obstacles);
     for (OfSegment &segment : of_segments)
@@ -380,7 +377,7 @@ namespace scree
       {
         const GroundRow<dim> &row               = rows.all[k];
         of_segments[row.segment].tractions.soil = row.traction;
-        count(row.segment, time_step * row.traction, rows.weight_of_row(k), working[k], balance);
+        count(row.segment, time_step * row.traction, rows.weight_of_row(k), solver.working_flow(rows, k), balance);
       }
   }
 

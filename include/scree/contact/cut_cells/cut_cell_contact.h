@@ -3,6 +3,7 @@
 #define scree_contact_cut_cells_cut_cell_contact_h
 
 #include <scree/boundary/ground_gaps.h>
+#include <scree/contact/cut_cells/traction_solver.h>
 #include <scree/contact/rigid_surface.h>
 #include <scree/pressure/pore_pressure.h>
 
@@ -16,7 +17,7 @@ namespace scree
   /// The ground in a cell is a segment for each of its parts; a field's velocity there is its mean over the segment,
   /// beside the segment's own. Soil gets a row each (GroundRows), and so does water in cells without an unknown
   /// pressure; elsewhere the pressure stops the water. PorePressure finds the tractions together with the pressure,
-  /// DryContact those on soil without water. Soil that is not fixed may lift off, and rubs by Coulomb's law; water
+  /// TractionSolver those on soil without water. Soil that is not fixed may lift off, and rubs by Coulomb's law; water
   /// may leave where it has no pressure. It slips along the ground, but where that holds free water.
   template <int dim>
   class CutCellContact
@@ -79,9 +80,8 @@ namespace scree
                                const double mass_scaling,
                                const double time_step);
 
-    /// Books their tractions over the step.
-    /// @param working flows of DryContact
-    void count_rows(const typename GroundRows<dim>::Vectors &working, const double time_step, Budget<dim> &balance);
+    /// Books their tractions over the step, as `solver` has found them.
+    void count_rows(const TractionSolver<dim> &solver, const double time_step, Budget<dim> &balance);
 
     /// Books the tractions of the rows over a step, once the nodes have moved; ghosts of `nodes` hold values.
     void count_rows(const WetNodes<dim> &nodes, const double time_step, Budget<dim> &balance);
