@@ -69,9 +69,16 @@ void test_water()
   require((water.open_faces() & (top | left)) != 0 && (water.open_faces() & (left | front)) == 0 && water.is_open(1) &&
               !water.is_open(0),
           "The wrong walls are drained.");
-  require(water.pressure(right) == 3000 && water.pressure(top) == 0 && water.pressure(right | top) == 1500 &&
-              water.pressure(left) == 0,
+  require(water.pressure(right, 0.) == 3000 && water.pressure(top, 0.) == 0 &&
+              water.pressure(right | top, 0.) == 1500 && water.pressure(left, 0.) == 0,
           "The drained walls have a wrong pressure.");
+  WaterBoundaryParameters with_level;
+  with_level.texts["Right"] = "drained level 0.5 - 0.1*t";
+  BoundaryConditions<3> falling(grid, with_level, 1e4);
+  falling.set_time(2.);
+  require(std::abs(falling.pressure(right, 0.1) - 2000.) < 1e-9 && falling.pressure(right, 0.4) == 0. &&
+              falling.holds_pressure(1) && falling.has_pressure() && !falling.holds_pressure(5),
+          "A wall with a level that falls has a wrong pressure.");
   require(water.face_crossed(Point<3>(0, 0, 0.9)) == std::make_pair(std::string("Top"), true) &&
               water.face_crossed(Point<3>(0, -0.3, 0.801)) == std::make_pair(std::string("Front"), false),
           "A point left through another face.");
