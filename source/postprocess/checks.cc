@@ -11,7 +11,7 @@ namespace scree
 
   namespace
   {
-    constexpr unsigned long long steps_between = 20; // a look passes over all points
+    constexpr unsigned long long steps_between = 20; // of a channel
 
     /// What is said of a check, with numbers of its Suspect in place of FOUND and VALUE.
     struct Words
@@ -149,9 +149,9 @@ namespace scree
                             const double n_lost,
                             const double time,
                             const unsigned long long step,
-                            const bool is_end)
+                            const unsigned int least_age)
   {
-    if (has_looked && !is_end && step < last_step + steps_between)
+    if (has_looked && step < last_step + least_age)
       return;
     last_step = step;
     now       = Suspects();

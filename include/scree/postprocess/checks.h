@@ -34,14 +34,14 @@ namespace scree
     {
     }
 
-    /// Looks at the points if the last look is some steps old, or at the end. Collective.
+    /// Looks at the points if the last look is `least_age` steps old. Collective.
     /// @param n_lost points of soil that this rank has lost so far
     void look(const std::list<SoilBody<dim>> &bodies,
               const std::list<WaterPhase<dim>> &water,
               const double n_lost,
               const double time,
               const unsigned long long step,
-              const bool is_end);
+              const unsigned int least_age);
 
     /// The worst that was seen. What does not apply is left out. Complete on the rank that writes alone.
     std::vector<CheckResult> results() const;

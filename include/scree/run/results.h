@@ -95,7 +95,15 @@ namespace scree
 
       if (row_is_due || picture_is_due || output_times.checkpoint_is_due(time))
         folder.require_presence();
-      checks.look(scene.bodies, scene.water, state.totals.n_lost, time, state.step, at_start_or_end);
+      constexpr unsigned int between_rows = 20, without_rows = 100; // steps: a look passes over all points
+      checks.look(scene.bodies,
+                  scene.water,
+                  state.totals.n_lost,
+                  time,
+                  state.step,
+                  at_start_or_end ? 0
+                  : row_is_due    ? between_rows
+                                  : without_rows);
       if (row_is_due)
         write_row(state);
       else if (picture_is_due)
