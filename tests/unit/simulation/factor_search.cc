@@ -77,7 +77,8 @@ const UnitTest registered("factor_search", [] {
          "1 1.3 1.69 2.197 2.8561 3.71293 4.82681 6.27485 8.15731 10.6045 13.7858 17.9216 23.2981 30.2875 39.3738 "
          "51.1859 66.5417 86.5042 112.455",
          "--safety: the soil still comes to rest with its strength divided by 112.455, so its own weight does not make "
-         "it fail. Check that the \"Region\" of the bodies has a slope that no obstacle holds, and the direction of \"Gravity\".");
+         "it fail. Check that the \"Region\" of the bodies has a slope that no obstacle holds, and the direction of "
+         "\"Gravity\".");
 
   judge(1e-3, 4., TrialEnd::fails, 4.1); // faster and faster
   judge(0.01, 1., TrialEnd::fails, 20.); // steady
