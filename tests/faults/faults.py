@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""faults.py FOLDER [NUMBER...]: do tests still find known faults? The faults of faults.table, by their place in it from 1 on, or all of them.
+"""faults.py FOLDER [NUMBER...]: do tests find faults? The faults of faults.table, by their place in it from 1 on, or all of them.
 
 Copies the sources to FOLDER with all faults in them, each of which acts if the variable SCREE_FAULT has its number, so that one build serves
 them all, and runs the tests of the table, an expression of ctest, with each: one at least must fail. By hand only: python3 tests/faults/faults.py /tmp/faults
