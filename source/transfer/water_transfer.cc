@@ -88,34 +88,36 @@ namespace scree
                              (1. - porous) * carrier->drag->inertial(porous) / porous };
         };
 
-        for_each_record_with_shape<n>(cell, cell.stride, open, width, [&](const auto &point, const auto &shape) {
-          const double *properties = point.properties, *affine = properties + layout.affine;
-          const double mass = properties[layout.mass], volume = properties[layout.volume];
-          sums.template add_momentum<is_affine>(shape, mass, properties + layout.velocity, affine);
-          const PoresAbout about = pores_at(point, shape.x);
-          const double more      = about.inverse_porosity - 1.;
-          const double bulk      = about.inverse_porosity * volume;
-          add_row<dim>(bulk * vertex_values(shape.x), totals.bulk_at_vertex);
-          totals.bulk_volume += bulk;
-          totals.mass_of_flux += about.inverse_porosity * mass;
-          totals.inertia_of_flux += about.inverse_porosity * about.inverse_porosity * mass;
-          totals.drag_of_flux += bulk * about.resistance;
-          if (has_pores)
-            {
-              add_row_sums(shape, bulk * about.resistance, pore_sums[Pores::drag]);
-              add_row_sums(shape, bulk * about.inertial, pore_sums[Pores::inertial_drag]);
-              add_row_sums(shape, volume * more, pore_sums[Pores::local_solid_volume]);
-              add_row_sums(shape, volume * more * (2. + more), pore_sums[Pores::flux_inertia]);
-              excess_sums.template add_momentum<is_affine>(shape, mass * more, properties + layout.velocity, affine);
-            }
+        for_each_record_with_shape<n>(
+            cell, cell.stride, open, width, [&](const auto &point, const auto &shape) DEAL_II_ALWAYS_INLINE {
+              const double *properties = point.properties, *affine = properties + layout.affine;
+              const double mass = properties[layout.mass], volume = properties[layout.volume];
+              sums.template add_momentum<is_affine>(shape, mass, properties + layout.velocity, affine);
+              const PoresAbout about = pores_at(point, shape.x);
+              const double more      = about.inverse_porosity - 1.;
+              const double bulk      = about.inverse_porosity * volume;
+              add_row<dim>(bulk * vertex_values(shape.x), totals.bulk_at_vertex);
+              totals.bulk_volume += bulk;
+              totals.mass_of_flux += about.inverse_porosity * mass;
+              totals.inertia_of_flux += about.inverse_porosity * about.inverse_porosity * mass;
+              totals.drag_of_flux += bulk * about.resistance;
+              if (has_pores)
+                {
+                  add_row_sums(shape, bulk * about.resistance, pore_sums[Pores::drag]);
+                  add_row_sums(shape, bulk * about.inertial, pore_sums[Pores::inertial_drag]);
+                  add_row_sums(shape, volume * more, pore_sums[Pores::local_solid_volume]);
+                  add_row_sums(shape, volume * more * (2. + more), pore_sums[Pores::flux_inertia]);
+                  excess_sums.template add_momentum<is_affine>(
+                      shape, mass * more, properties + layout.velocity, affine);
+                }
 
-          std::array<double, dim> rise;
-          for (unsigned int a = 0; a < dim; ++a)
-            rise[a] = width * properties[layout.pressure_gradient + a];
-          add_to_vertices<dim>(shape.x, volume, properties[layout.pressure], rise, totals);
-          totals.water_volume += volume;
-          totals.water_mass += mass;
-        });
+              std::array<double, dim> rise;
+              for (unsigned int a = 0; a < dim; ++a)
+                rise[a] = width * properties[layout.pressure_gradient + a];
+              add_to_vertices<dim>(shape.x, volume, properties[layout.pressure], rise, totals);
+              totals.water_volume += volume;
+              totals.water_mass += mass;
+            });
         mixture.cells()[record] = totals;
 
         const unsigned int *of_cell = grid.nodes(cell.cell);
@@ -200,25 +202,28 @@ namespace scree
           MixtureCell<dim> sums     = mixture.cells()[record];
           auto *parts               = point_sets == PointSets::double_point ? &mixture.soil_parts(record) : nullptr;
 
-          for_each_record_with_shape<n>(
-              cell, layout.volume + 1, open, grid.cell_size(), [&](const auto &point, const auto &shape) {
-                const double *properties    = point.properties;
-                const double mass           = properties[layout.mass];
-                const double volume         = properties[layout.volume];
-                const double grains         = mass / soil.grain_density;
-                const double porosity       = std::max(1. - grains / volume, smallest_porosity);
-                const double pores_of_point = porosity * volume;
-                if (parts != nullptr)
-                  parts->add_soil(shape.x,
-                                  grains,
-                                  volume,
-                                  volume * law.linear(porosity) / porosity,
-                                  grains * law.inertial(porosity) / porosity);
-                add_row<dim>(grains * vertex_values(shape.x), sums.grains_at_vertex);
-                sums.soil_mass += mass;
-                sums.grain_volume += grains;
-                sums.pore_volume += pores_of_point;
-              });
+          for_each_record_with_shape<n>(cell,
+                                        layout.volume + 1,
+                                        open,
+                                        grid.cell_size(),
+                                        [&](const auto &point, const auto &shape) DEAL_II_ALWAYS_INLINE {
+                                          const double *properties = point.properties;
+                                          const double mass        = properties[layout.mass];
+                                          const double volume      = properties[layout.volume];
+                                          const double grains      = mass / soil.grain_density;
+                                          const double porosity    = std::max(1. - grains / volume, smallest_porosity);
+                                          const double pores_of_point = porosity * volume;
+                                          if (parts != nullptr)
+                                            parts->add_soil(shape.x,
+                                                            grains,
+                                                            volume,
+                                                            volume * law.linear(porosity) / porosity,
+                                                            grains * law.inertial(porosity) / porosity);
+                                          add_row<dim>(grains * vertex_values(shape.x), sums.grains_at_vertex);
+                                          sums.soil_mass += mass;
+                                          sums.grain_volume += grains;
+                                          sums.pore_volume += pores_of_point;
+                                        });
           sums.is_rigid           = sums.is_rigid || soil.is_rigid;
           mixture.cells()[record] = sums;
         }

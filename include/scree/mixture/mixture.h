@@ -89,7 +89,11 @@ namespace scree
                   const double resistance,
                   const double inertial)
     {
-      parts[part_of(x)] += { grains, volume, resistance, inertial };
+      const unsigned int part = part_of(x);
+      parts[Sums::grains][part] += grains;
+      parts[Sums::soil][part] += volume;
+      parts[Sums::linear][part] += resistance;
+      parts[Sums::inertial][part] += inertial;
     }
 
     /// Finds porosities and resistances, when all soil is in. Soil that does not fill its part shares it with free
@@ -100,25 +104,30 @@ namespace scree
     /// @param depths signed distances of the vertices from the surface of the soil, positive inside
     void find(const double volume, const std::array<double, (1 << dim)> &depths)
     {
-      Part cell;
-      for (unsigned int p = 0; p < dealii::Utilities::fixed_power<dim>(n_1d); ++p)
-        cell += parts[p];
       // Less than `whole` is no scatter of points: to take it for that lends water at a face the grains of its
       // neighbourhood, and consolidating mud blows up.
-      const double whole = volume / dealii::Utilities::fixed_power<dim>(n_1d);
-      for (unsigned int p = 0; p < dealii::Utilities::fixed_power<dim>(n_1d); ++p)
+      const Batch whole = simd::broadcast<Batch>(volume / dealii::Utilities::fixed_power<dim>(n_1d)),
+                  one   = simd::broadcast<Batch>(1.);
+      std::array<double, Sums::n_components> of_cell{};
+      for (unsigned int c = 0; c < of_cell.size(); ++c)
+        for (const double of_part : parts[c])
+          of_cell[c] += of_part;
+      for (unsigned int p = 0; p < n_parts; p += batch_size)
         {
-          Part &part           = parts[p];
-          const bool is_inside = depth_of(p, depths) > 0.;
-          if (is_inside && part.volume <= 0.)
-            part = cell;
-          if (part.volume > 0.)
-            {
-              const double of_part  = is_inside ? part.volume : std::max(part.volume, whole);
-              part.inverse_porosity = 1. / std::max(closures::least_porosity, 1. - part.grains / of_part);
-              part.resistance /= of_part;
-              part.inertial /= of_part;
-            }
+          const simd::Mask<Batch> is_inside = depths_of(p, depths) > 0.,
+                                  is_filled = is_inside & (simd::load(&parts[Sums::soil][p]) <= 0.);
+          std::array<Batch, Sums::n_components> sums;
+          for (unsigned int c = 0; c < sums.size(); ++c)
+            sums[c] = simd::select<Batch>(is_filled, simd::broadcast<Batch>(of_cell[c]), simd::load(&parts[c][p]));
+          const simd::Mask<Batch> has_soil = sums[Sums::soil] > 0.;
+          const Batch share =
+              simd::select<Batch>(is_inside, sums[Sums::soil], simd::max<Batch>(sums[Sums::soil], whole));
+          const Batch of_part = simd::select<Batch>(has_soil, share, one);
+          const Batch porosity =
+              simd::max<Batch>(1. - sums[Sums::grains] / of_part, simd::broadcast<Batch>(closures::least_porosity));
+          simd::store(simd::select<Batch>(has_soil, 1. / porosity, one), &inverse_porosity[p]);
+          simd::store(sums[Sums::linear] / of_part, &parts[Sums::linear][p]);
+          simd::store(sums[Sums::inertial] / of_part, &parts[Sums::inertial][p]);
         }
     }
 
@@ -133,8 +142,8 @@ namespace scree
     /// Pores about a place of the cell, after find().
     PoresAbout at(const dealii::Point<dim> &x) const
     {
-      const Part &part = parts[part_of(x)];
-      return { part.inverse_porosity, part.resistance, part.inertial };
+      const unsigned int part = part_of(x);
+      return { inverse_porosity[part], parts[Sums::linear][part], parts[Sums::inertial][part] };
     }
 
     /// Their inverse porosity about a batch of places.
@@ -150,41 +159,56 @@ namespace scree
     }
 
   private:
-    struct Part
-    {
-      double grains = 0, volume = 0;       // m^3
-      double resistance = 0, inertial = 0; // see PoresAbout; times volume until find()
-      double inverse_porosity = 1;
+    static constexpr unsigned int most_1d = dim == 2 ? 4 : 2;
+    static constexpr unsigned int n_parts = dealii::Utilities::pow(most_1d, dim); // the last axis is the fastest
 
-      void operator+=(const Part &other)
+    // What points of soil add to a part; the two of the resistance are over its volume from find() on.
+    struct Sums
+    {
+      enum Component : unsigned int
       {
-        grains += other.grains;
-        volume += other.volume;
-        resistance += other.resistance;
-        inertial += other.inertial;
-      }
+        grains,   // m^3
+        soil,     // m^3
+        linear,   // see PoresAbout, times volume
+        inertial, // likewise
+        n_components
+      };
     };
 
-    /// A function that is linear along each axis, at the centre of a part.
-    double depth_of(const unsigned int part, std::array<double, (1 << dim)> depths) const
+    // Centres of the parts in the cell, by axis.
+    using Centres = std::array<std::array<double, n_parts>, dim>;
+
+    static constexpr std::array<Centres, most_1d> make_centres()
     {
-      unsigned int rest = part, strides[dim]; // the last axis is the fastest
-      for (unsigned int a = dim; a-- > 0; rest /= n_1d)
-        strides[a] = rest % n_1d;
+      std::array<Centres, most_1d> centres{};
+      for (unsigned int n_1d = 1; n_1d <= most_1d; ++n_1d)
+        for (unsigned int p = 0; p < n_parts; ++p)
+          for (unsigned int a = dim, rest = p; a-- > 0; rest /= n_1d)
+            centres[n_1d - 1][a][p] = (rest % n_1d + 0.5) / n_1d;
+      return centres;
+    }
+
+    // A function that is linear along each axis, at the centres of parts from `first` on.
+    Batch depths_of(const unsigned int first, const std::array<double, (1 << dim)> &depths) const
+    {
+      static constexpr std::array<Centres, most_1d> centres = make_centres();
+      Batch values[1 << dim];
+      for (unsigned int v = 0; v < depths.size(); ++v)
+        values[v] = simd::broadcast<Batch>(depths[v]);
       for (unsigned int a = dim; a-- > 0;)
         {
-          const double x = (strides[a] + 0.5) / n_1d;
+          const Batch x = simd::load(&centres[n_1d - 1][a][first]);
           for (unsigned int v = 0; v < (1u << a); ++v)
-            depths[v] += x * (depths[v | 1u << a] - depths[v]);
+            values[v] += x * (values[v | 1u << a] - values[v]);
         }
-      return depths[0];
+      return values[0];
     }
 
     /// In registers: numbers that are stored one by one and read as a vector wait for each other.
     template <typename Integers, std::size_t... lane>
     Batch inverse_of(const Integers &part, std::index_sequence<lane...>) const
     {
-      return Batch{ parts[part[lane]].inverse_porosity... };
+      return Batch{ inverse_porosity[part[lane]]... };
     }
 
     unsigned int part_of(const dealii::Point<dim> &x) const
@@ -195,10 +219,9 @@ namespace scree
       return part;
     }
 
-    static constexpr unsigned int most_1d = dim == 2 ? 4 : 2;
-
-    unsigned int n_1d; // parts along an axis
-    std::array<Part, dealii::Utilities::pow(most_1d, dim)> parts;
+    unsigned int n_1d;                                                   // parts along an axis
+    std::array<std::array<double, n_parts>, Sums::n_components> parts{}; // by Sums, then part
+    std::array<double, n_parts> inverse_porosity;                        // of parts; after find()
   };
 
   /// What the points of a cell weigh and fill (2D: per m).
