@@ -14,7 +14,8 @@ LAWS = {
     "Nor-Sand (Jefferies-Been); loose": ({"Critical stress ratio M": "1.17", "Volumetric coupling N": "0.066", "State dilatancy": "4.28",
                                           "Hardening modulus": "77", "Hardening slope": "688"}, "Initial void ratio"),
     "linear elastic": ({"Young's modulus": "1e6"}, "Poisson's ratio"),
-    "Mohr-Coulomb": ({"Friction angle": "30"}, "Dilation angle")}
+    "Mohr-Coulomb": ({"Friction angle": "30"}, "Dilation angle"),
+    "Mohr-Coulomb; softening": ({"Friction angle": "30", "Residual friction angle": "20", "Softening strain": "0.02"}, "Dilation angle")}
 
 # What is printed; shear/vertical stress of simple shear only, and the state of laws that have one.
 COMMON = ["strain [-]", "peak q/P [-]", "q/P [-]", "P [kPa]", "J [-]"]
@@ -47,11 +48,13 @@ Nor-Sand (Jefferies-Been); loose | undrained triaxial, 500e3, 1, 0.02, 2000, 0.8
 Nor-Sand (Jefferies-Been); loose | undrained triaxial, 500e3, 1, 0.06, 6000, 0.8 | 0.060000, 1.170000, 1.170000, 2.905677, 1.000000, 0.800000, 0.000000 |  | 0, 0, 0, 0
 linear elastic | oedometer, 10e3, -, 0.1, -, 0.25 | 0.100000, 1.043478, 1.043478, 84.729770, 0.904837 |  | 0, 0, 0, 0
 Mohr-Coulomb | simple shear, 20e3, -, 0.2, -, 5 | 0.200000, 0.871115, 0.871115, 20.474855, 1.014283 | 0.513931, 0.513931 | 0, 0, 0, 0
+Mohr-Coulomb; softening | drained triaxial, 50e3, 1, 0.4, -, 0 | 0.400000, 1.200000, 0.772060, 67.326779, 0.980932 |  | 0, 0, 0, 0
 """
 
 # Independent programs of the equations, to 1 %: of the path, the confining pressure, the final strain and the specific volume or void ratio. Loose soil
-# liquefies: q of 216 kPa at its peak falls to M p, p = exp((Gamma - e)/lambda).
+# liquefies: q of 216 kPa at its peak falls to M p, p = exp((Gamma - e)/lambda). Friction that falls from 30 to 20 degrees: q/P = 6 sin/(3 - sin).
 TARGETS = {
+    ("drained triaxial", "50e3", "0.4", "0"): {"peak q/P [-]": 1.2, "q/P [-]": 6 * math.sin(math.radians(20)) / (3 - math.sin(math.radians(20)))},
     ("undrained triaxial", "500e3", "0.0027", "0.8"): {"q [kPa]": 216.0},
     ("undrained triaxial", "500e3", "0.01", "0.8"): {"q [kPa]": 38.1},
     ("undrained triaxial", "500e3", "0.02", "0.8"): {"q [kPa]": 4.14},

@@ -32,8 +32,8 @@ struct Box
   }
 
   /// A point, m, whichever rank has its cell; all nodes around it move at `velocity`, m/s, with 3 kg of soil and 1 kg
-  /// of water.
-  void add(const Point<2> &x, const Tensor<1, 2> &velocity)
+  /// of water. A force accelerates the soil, m/s^2.
+  void add(const Point<2> &x, const Tensor<1, 2> &velocity, const Tensor<1, 2> &acceleration = {})
   {
     add_point(points, grid, x, { 0. });
     for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
@@ -42,6 +42,7 @@ struct Box
         water[node][NodalField<2>::mass] = 1.;
         set_vector<2>(soil[node], NodalField<2>::momentum, 3. * velocity);
         set_vector(water[node], NodalField<2>::momentum, velocity);
+        set_vector<2>(soil[node], NodalField<2>::force, 3. * acceleration);
       }
   }
 
@@ -87,9 +88,10 @@ const UnitTest registered("wall_gaps", [] {
                         const Point<2> &x,
                         const Tensor<1, 2> &velocity,
                         const unsigned int n_held,
-                        const Tensor<1, 2> &closing) {
+                        const Tensor<1, 2> &closing,
+                        const Tensor<1, 2> &acceleration = {}) {
     Box box;
-    box.add(x, velocity);
+    box.add(x, velocity, acceleration);
     box.release(dt);
     const auto [n, sum] = box.held();
     expect(n, n_held, 0., what + ": held nodes");
@@ -105,6 +107,7 @@ const UnitTest registered("wall_gaps", [] {
   test("a point falls", Point<2>(middle, middle), down, n_all - 8, rest);
   test("a point falls, not far above the bottom", Point<2>(middle, 0.9 * h), down, n_all - 8, rest);
   test("a point that has reached the bottom", Point<2>(middle, 0.25 * h), down, n_all - 8 + 3, rest);
+  test("a force drives it there", Point<2>(middle, 0.25 * h), rest, n_all - 8 + 3, rest, 4. / (3. * dt) * down);
   test("a point flies into a corner", Point<2>(middle, middle), down_left, 19, rest);
   test("a point in the corner", Point<2>(0.2 * h, 0.2 * h), down_left, 19 + 5, rest);
   test("a point on the bottom beside a wall", Point<2>(0.9 * h, 0.2 * h), down_left, 19 + 3, rest);
