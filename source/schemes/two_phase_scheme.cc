@@ -196,13 +196,25 @@ namespace scree
     const double largest_speed = report.speeds.points;
     for (auto &one : water)
       keep_off_walls(grid, faces_closed_to_water, one, report.balance);
-    std::vector<PointSet<dim> *> of_soil;
-    soil.append_point_sets(of_soil);
-    for (PointSet<dim> *points : of_soil)
-      contact.project_to_boundary(*points, time_step, largest_speed, faces_closed_to_soil);
+    for (auto &body : soil.all_bodies())
+      report.soil += contact.project_to_boundary(body.points,
+                                                 body.layout,
+                                                 body.has_affine_energy,
+                                                 Phase::soil,
+                                                 time_step,
+                                                 largest_speed,
+                                                 faces_closed_to_soil,
+                                                 report.balance);
     for (auto &one : water)
       if (PointSet<dim> *own = one.own_points())
-        contact.project_to_boundary(*own, time_step, largest_speed, faces_closed_to_water);
+        contact.project_to_boundary(*own,
+                                    one.layout,
+                                    one.has_affine_energy,
+                                    Phase::water,
+                                    time_step,
+                                    largest_speed,
+                                    faces_closed_to_water,
+                                    report.balance);
     for (const auto &one : water)
       report.water += motion_of_points(grid, one.points(), one.layout, one.has_affine_energy);
   }

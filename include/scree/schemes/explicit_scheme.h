@@ -71,7 +71,14 @@ namespace scree
         if (!body.is_rigid)
           {
             Group &group = *std::next(groups.begin(), body.group);
-            group.contact.project_to_boundary(body.points, time_step, report.speeds.points, group.closed_faces);
+            report.soil += group.contact.project_to_boundary(body.points,
+                                                             body.layout,
+                                                             body.has_affine_energy,
+                                                             Phase::soil,
+                                                             time_step,
+                                                             report.speeds.points,
+                                                             group.closed_faces,
+                                                             report.balance);
           }
     }
     SolverState<dim> solver_state() const override;

@@ -123,11 +123,41 @@ namespace scree
 
 
   template <int dim>
-  ObstacleBalance<dim> *CutCellContact<dim>::balance_of(const unsigned int segment, Budget<dim> &balance) const
+  ObstacleBalance<dim> *CutCellContact<dim>::balance_of(const unsigned int part, Budget<dim> &balance) const
   {
     const unsigned int first = surfaces.size() - n_obstacles;
-    const unsigned int part  = cut_cells->segments()[segment].part;
     return part < first ? nullptr : &balance.obstacles[part - first];
+  }
+
+
+  template <int dim>
+  Tensor<1, dim> CutCellContact<dim>::velocity_of(const unsigned int part) const
+  {
+    const Tensor<1, dim> *velocity = ground->parts()[part].velocity;
+    return velocity == nullptr ? Tensor<1, dim>() : *velocity;
+  }
+
+
+  template <int dim>
+  void CutCellContact<dim>::book(const unsigned int part,
+                                 const Point<dim> &place,
+                                 const Tensor<1, dim> &impulse,
+                                 const double lost,
+                                 Budget<dim> &balance) const
+  {
+    if (ObstacleBalance<dim> *obstacle = balance_of(part, balance))
+      {
+        const double work = impulse * velocity_of(part);
+        obstacle->impulse += impulse;
+        obstacle->add_moment(place - surfaces[part].obstacle->pivot, impulse);
+        obstacle->work += work;
+        obstacle->dissipation += work + lost;
+      }
+    else
+      {
+        balance.bed_impulse += impulse;
+        balance.bed_dissipation += lost;
+      }
   }
 
 
@@ -168,7 +198,7 @@ namespace scree
                                                           const Tensor<1, dim> &velocity,
                                                           const double time_step) const
   {
-    const Tensor<1, dim> of_ground = cut_cells->velocity(cut_cells->segments()[row.segment]);
+    const Tensor<1, dim> of_ground = velocity_of(cut_cells->segments()[row.segment].part);
     const double allowed = gaps.approach_of_material(row.segment, (velocity - of_ground) * row.normal, time_step);
     row.is_unilateral    = row.is_unilateral || allowed > 0.; // what has not arrived does not stick yet
     return of_ground + allowed * row.normal;
@@ -267,7 +297,7 @@ namespace scree
                                                     const double viscosity) const
   {
     const CutFacet<dim> &segment  = cut_cells->segments()[s];
-    const Tensor<1, dim> velocity = mean_velocity(segment, motion) - ground_share * cut_cells->velocity(segment);
+    const Tensor<1, dim> velocity = mean_velocity(segment, motion) - ground_share * velocity_of(segment.part);
     return -viscosity * segment.area / (closures::slip_length * grid.cell_size()) * velocity;
   }
 
@@ -393,20 +423,7 @@ namespace scree
       return force;
     const CutFacet<dim> &segment = cut_cells->segments()[s];
     const Tensor<1, dim> given   = of_momentum * force;
-    const double dissipation     = force * velocity;
-    if (ObstacleBalance<dim> *obstacle = balance_of(s, balance))
-      {
-        const double work = -given * cut_cells->velocity(segment);
-        obstacle->impulse -= given;
-        obstacle->add_moment(segment.middle - surface_of(s).obstacle->pivot, -given);
-        obstacle->work += work;
-        obstacle->dissipation += work + dissipation;
-      }
-    else
-      {
-        balance.bed_impulse -= given;
-        balance.bed_dissipation += dissipation;
-      }
+    book(segment.part, segment.middle, -given, force * velocity, balance);
     return given;
   }
 
@@ -423,7 +440,7 @@ namespace scree
     for (const MixtureCell<dim> &cell : mixture.cells())
       if (cell.water_volume > 0.)
         for_segments(cell.cell, [&](const unsigned int s) {
-          ObstacleBalance<dim> *obstacle = balance_of(s, balance);
+          ObstacleBalance<dim> *obstacle = balance_of(cut_cells->segments()[s].part, balance);
           if (obstacle == nullptr)
             return;
           const CutFacet<dim> &segment = cut_cells->segments()[s];
@@ -434,25 +451,102 @@ namespace scree
           const Tensor<1, dim> impulse = -time_step * mean * segment.area * segment.normal;
           obstacle->pressure_impulse += impulse;
           obstacle->add_moment(cut_cells->segments()[s].middle - surface_of(s).obstacle->pivot, impulse);
-          obstacle->work += impulse * cut_cells->velocity(segment);
+          obstacle->work += impulse * velocity_of(segment.part);
         });
   }
 
 
   template <int dim>
-  void CutCellContact<dim>::project_to_boundary(PointSet<dim> &points,
-                                                const double time_step,
-                                                const double largest_speed,
-                                                const std::uint8_t closed_faces) const
+  template <typename Layout>
+  MotionSums<dim> CutCellContact<dim>::project_to_boundary(PointSet<dim> &points,
+                                                           const Layout &layout,
+                                                           const bool has_affine_energy,
+                                                           const Phase phase,
+                                                           const double time_step,
+                                                           const double largest_speed,
+                                                           const std::uint8_t closed_faces,
+                                                           Budget<dim> &balance) const
   {
+    MotionSums<dim> change;
     if (ground == nullptr)
-      return;
-    const TimedPart part(timer, TimerSection::bed);
+      return change;
+    const TimedPart timed(timer, TimerSection::bed);
+    balance.obstacles.resize(n_obstacles);
+    const auto stop = [&](const auto &point, const unsigned int part, const Tensor<1, dim> &normal) {
+      double *own                   = point.properties + layout.velocity;
+      const Tensor<1, dim> velocity = vector_of<dim>(own), relative = velocity - velocity_of(part);
+      const double into = -(relative * normal), mass = point.properties[layout.mass];
+      if (into <= 0.)
+        return;
+      const Tensor<1, dim> along = relative + into * normal;
+      const double friction      = phase == Phase::soil ? surfaces[part].friction_coefficient * into : 0.,
+                   speed         = along.norm();
+      const Tensor<1, dim> given = into * normal - (speed > friction ? friction / speed : 1.) * along;
+      for (unsigned int c = 0; c < dim; ++c)
+        own[c] += given[c];
+      double lost = -mass * (given * (velocity + 0.5 * given));
+      if (has_affine_energy)
+        {
+          double *affine    = point.properties + layout.affine;
+          const auto energy = [&] {
+            return with_nodes_1d(grid, [&](auto n) {
+              return 0.5 * mass *
+                     square_of_affine<dim, n, double>(
+                         affine, point.reference_location, grid.open_knots(point.cell), grid.cell_size());
+            });
+          };
+          lost += energy();
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              const double slope = vector_of<dim>(affine + c * dim) * normal;
+              for (unsigned int a = 0; a < dim; ++a)
+                affine[c * dim + a] -= slope * normal[a];
+            }
+          lost -= energy();
+        }
+      book(part, point.location, mass * given, lost, balance);
+      for (unsigned int c = 0; c < dim; ++c)
+        change.momentum[c] += mass * given[c];
+      change.kinetic -= lost;
+    };
     // Nodes may be faster than points, and shifting moves by a tenth of a cell along each axis.
     const double farthest = 0.25 * grid.cell_size() + 2. * time_step * largest_speed;
-    move_out_of_ground(grid, *ground, farthest, closed_faces, points);
+    move_out_of_ground<dim>(grid, *ground, farthest, closed_faces, points, stop);
+    return change;
   }
 
   template class CutCellContact<2>;
   template class CutCellContact<3>;
+  template MotionSums<2> CutCellContact<2>::project_to_boundary(PointSet<2> &,
+                                                                const PropertyLayout<2> &,
+                                                                const bool,
+                                                                const Phase,
+                                                                const double,
+                                                                const double,
+                                                                const std::uint8_t,
+                                                                Budget<2> &) const;
+  template MotionSums<2> CutCellContact<2>::project_to_boundary(PointSet<2> &,
+                                                                const WaterLayout<2> &,
+                                                                const bool,
+                                                                const Phase,
+                                                                const double,
+                                                                const double,
+                                                                const std::uint8_t,
+                                                                Budget<2> &) const;
+  template MotionSums<3> CutCellContact<3>::project_to_boundary(PointSet<3> &,
+                                                                const PropertyLayout<3> &,
+                                                                const bool,
+                                                                const Phase,
+                                                                const double,
+                                                                const double,
+                                                                const std::uint8_t,
+                                                                Budget<3> &) const;
+  template MotionSums<3> CutCellContact<3>::project_to_boundary(PointSet<3> &,
+                                                                const WaterLayout<3> &,
+                                                                const bool,
+                                                                const Phase,
+                                                                const double,
+                                                                const double,
+                                                                const std::uint8_t,
+                                                                Budget<3> &) const;
 } // namespace scree

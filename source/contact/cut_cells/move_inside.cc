@@ -94,7 +94,8 @@ namespace scree
                           const RigidBoundary<dim> &ground,
                           const double farthest,
                           const std::uint8_t closed_faces,
-                          PointSet<dim> &points)
+                          PointSet<dim> &points,
+                          const ActOnGround<dim> &act)
   {
     const double width         = grid.cell_size();
     const FineCells<dim> &fine = grid.fine_cells();
@@ -112,9 +113,19 @@ namespace scree
           for (unsigned int l = 0; l < n; ++l)
             if (below >> l & 1)
               {
-                Point<dim> &location        = cell.location_of(indices[l]);
-                const SurfaceView<dim> view = ground.view(cell.cell, Point<dim>((location - lower) / width));
-                move_out_of_ground(grid, closed_faces, view.normal, inside * width - view.distance, location);
+                Point<dim> &location     = cell.location_of(indices[l]);
+                const auto place_in_cell = [&] { return Point<dim>((location - lower) / width); };
+                const unsigned int part  = ground.nearest_part(cell.cell, place_in_cell());
+                SurfaceView<dim> view    = ground.view(cell.cell, place_in_cell());
+                act({ cell.cell, cell.properties_of(indices[l]), location, cell.reference_location_of(indices[l]) },
+                    part,
+                    view.normal);
+                // Near an edge the mean normal is not the gradient of the distance.
+                for (unsigned int n_moves = 0; view.distance < 0. && n_moves < 3; ++n_moves)
+                  {
+                    move_out_of_ground(grid, closed_faces, view.normal, inside * width - view.distance, location);
+                    view = ground.view(cell.cell, place_in_cell());
+                  }
               }
         });
       }
@@ -130,10 +141,12 @@ namespace scree
                                    const RigidBoundary<2> &,
                                    const double,
                                    const std::uint8_t,
-                                   PointSet<2> &);
+                                   PointSet<2> &,
+                                   const ActOnGround<2> &);
   template void move_out_of_ground(const BackgroundGrid<3> &,
                                    const RigidBoundary<3> &,
                                    const double,
                                    const std::uint8_t,
-                                   PointSet<3> &);
+                                   PointSet<3> &,
+                                   const ActOnGround<3> &);
 } // namespace scree

@@ -92,13 +92,23 @@ namespace scree
                         const double time_step,
                         Budget<dim> &balance) const;
 
-    /// Takes points that have come below the ground in a step of `time_step` s back to it.
+    /// Takes points that have come below the ground in a step of `time_step` s back to it. What the rows of the nodes
+    /// have left of their velocity into the ground goes to it, soil with its friction, and so does the slope of their
+    /// affine field along the normal: a grain on the ground by itself, whose nodes are light, would else fall at its
+    /// place. Returns what that has changed of the points' momentum and energy.
+    /// @tparam Layout of the points' quantities
+    /// @param has_affine_energy see TransferParameters
     /// @param largest_speed of the points of this rank, m/s
     /// @param closed_faces of the box, to the points: none is put through them
-    void project_to_boundary(PointSet<dim> &points,
-                             const double time_step,
-                             const double largest_speed,
-                             const std::uint8_t closed_faces) const;
+    template <typename Layout>
+    MotionSums<dim> project_to_boundary(PointSet<dim> &points,
+                                        const Layout &layout,
+                                        const bool has_affine_energy,
+                                        const Phase phase,
+                                        const double time_step,
+                                        const double largest_speed,
+                                        const std::uint8_t closed_faces,
+                                        Budget<dim> &balance) const;
 
     /// Tractions of the last step at the facets of all ranks, with the places of their cells. Collective.
     std::vector<FacetTractions<dim>> tractions() const;
@@ -172,8 +182,18 @@ namespace scree
       return std::isinf(surface_of(segment).friction_coefficient);
     }
 
-    /// What a segment's surface did, if it is an obstacle; else null.
-    ObstacleBalance<dim> *balance_of(const unsigned int segment, Budget<dim> &balance) const;
+    /// What a part of the ground did, if it is an obstacle; else null.
+    ObstacleBalance<dim> *balance_of(const unsigned int part, Budget<dim> &balance) const;
+
+    /// How fast a part is, m/s.
+    dealii::Tensor<1, dim> velocity_of(const unsigned int part) const;
+
+    /// Books an impulse of a part on soil or water, N s, at a place, and the energy that these have lost by it, J.
+    void book(const unsigned int part,
+              const dealii::Point<dim> &place,
+              const dealii::Tensor<1, dim> &impulse,
+              const double lost,
+              Budget<dim> &balance) const;
 
     const BackgroundGrid<dim> &grid;
     const RigidBoundary<dim> *ground; // may be null

@@ -8,6 +8,8 @@
 #include <scree/particles/point_set.h>
 #include <scree/step/step_report.h>
 
+#include <functional>
+
 namespace scree
 {
   /// Keeps the water's own points a twentieth of their size V^(1/dim) away from closed faces of the box: nearer ones
@@ -22,6 +24,11 @@ namespace scree
                       WaterPhase<dim> &water,
                       Budget<dim> &balance);
 
+  /// Called with a point, the part of the ground, and the normal.
+  template <int dim>
+  using ActOnGround = std::function<
+      void(const PointView<dim, double> &point, const unsigned int part, const dealii::Tensor<1, dim> &normal)>;
+
   /// Moves a place that is `depth`, m, below ground with this `normal` out of it, and along the closed faces of the box
   /// that it would leave through. Where there is no room between ground and a face, it stays at the face.
   template <int dim>
@@ -31,13 +38,15 @@ namespace scree
                           double depth,
                           dealii::Point<dim> &place);
 
-  /// Does so with the points that have come below the ground. None has moved farther than `farthest`, m.
+  /// Does so with the points that have come below the ground, and calls `act(point, part, normal)` for each before: the
+  /// nearest part of the ground, and its normal. None has moved farther than `farthest`, m.
   template <int dim>
   void move_out_of_ground(const BackgroundGrid<dim> &grid,
                           const RigidBoundary<dim> &ground,
                           const double farthest,
                           const std::uint8_t closed_faces,
-                          PointSet<dim> &points);
+                          PointSet<dim> &points,
+                          const ActOnGround<dim> &act);
 } // namespace scree
 
 #endif
