@@ -45,7 +45,7 @@ namespace scree
       {
         namespace polygons = CGAL::Polygon_mesh_processing;
         request.require(polygons::IO::read_polygon_mesh(request.value, mesh) && !mesh.is_empty(),
-                        "it cannot be read as a surface of polygons. Write the path of a file in STL, OBJ, OFF or PLY "
+                        "it cannot be read as a surface of polygons. Write the path of a file in STL, OBJ or PLY "
                         "in which each edge is that of two polygons.");
         for (const auto vertex : mesh.vertices())
           mesh.point(vertex) -= Kernel::Vector_3(request.map_origin[0], request.map_origin[1], 0.);
@@ -101,7 +101,7 @@ namespace scree
 
     const RegisterShape registered(
         "Surface mesh",
-        { "m; 3D. File of the closed surface of a body (STL, OBJ, OFF or PLY) in the coordinates of maps; alternative "
+        { "m; 3D. File of the closed surface of a body (STL, OBJ or PLY) in the coordinates of maps; alternative "
           "to \"Level set expression\".",
           ShapeValue::file,
           "a surface mesh is for scenes in space. Write a \"Level set expression\".",

@@ -75,8 +75,8 @@ void run()
                  entry + "write the centre, a number an axis, and the radius, all in m.",
                  "too few numbers");
   expect_refusal([] { sphere_of<2>("set Sphere = 1, 2, 0.5\n set Level set expression = y"); },
-                 entry + "it is given twice. Keep one of \"Level set expression\", \"Sphere\", \"Profile\" (2D) and " +
-                     "\"Raster\" (3D).",
+                 entry + "it is given twice. Keep one of \"Level set expression\", \"Sphere\", \"Profile\" (2D), " +
+                     "\"Raster\" (3D) and \"Surface mesh\" (3D).",
                  "two shapes");
 }
 

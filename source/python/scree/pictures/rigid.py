@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Rigid ground of a run: level sets of its bed and obstacles, from their expressions, profiles and rasters."""
+"""Rigid ground of a run: level sets of its bed and obstacles, from their expressions, profiles, rasters and surface meshes."""
 
 import functools
 import pathlib
@@ -47,6 +47,29 @@ def _raster(file, places, origin):
     return np.where(np.isnan(distance), np.nanmax(places[2]) - np.nanmin(places[2]) + 1., distance)
 
 
+def _surface_mesh(file, places, origin):
+    """Distance from a closed surface of polygons."""
+    import vtk  # plane runs need none
+    from vtk.util import numpy_support
+    reader = {".stl": vtk.vtkSTLReader, ".obj": vtk.vtkOBJReader, ".ply": vtk.vtkPLYReader}[file.suffix.lower()]()
+    reader.SetFileName(str(file))
+    triangles, joined, oriented = vtk.vtkTriangleFilter(), vtk.vtkCleanPolyData(), vtk.vtkPolyDataNormals()
+    oriented.AutoOrientNormalsOn()
+    for before, after in ((reader, triangles), (triangles, joined), (joined, oriented)):
+        after.SetInputConnection(before.GetOutputPort())
+    oriented.Update()
+    shape = np.broadcast_shapes(*(np.shape(place) for place in places))
+    points = np.stack([np.broadcast_to(place, shape).ravel() + shift for place, shift in zip(places, origin)], axis=1)
+    lower, upper = np.reshape(oriented.GetOutput().GetBounds(), (3, 2)).T
+    values = np.linalg.norm(np.maximum(np.maximum(lower - points, points - upper), 0.), axis=1)  # from the box around it
+    near = np.flatnonzero(values < 0.1 * np.max(upper - lower))
+    distance, exact = vtk.vtkImplicitPolyDataDistance(), vtk.vtkDoubleArray()
+    distance.SetInput(oriented.GetOutput())
+    distance.FunctionValue(numpy_support.numpy_to_vtk(np.ascontiguousarray(points[near])), exact)
+    values[near] = numpy_support.vtk_to_numpy(exact)
+    return values.reshape(shape)
+
+
 def displacement(run, subsection, time, dim):
     """How far an obstacle has moved, m, from the statistics of the run."""
     file = pathlib.Path(run) / "statistics.csv"
@@ -63,7 +86,8 @@ def _report(subsection, message):
 
 def _level_set(prm, entries, subsection, here, origin):
     """The level set that an expression or a file gives."""
-    for ending, read in (("Profile", lambda file: _profile(file, here)), ("Raster", lambda file: _raster(file, here, origin))):
+    for ending, read in (("Profile", lambda file: _profile(file, here)), ("Raster", lambda file: _raster(file, here, origin)),
+                         ("Surface mesh", lambda file: _surface_mesh(file, here, origin))):
         name = entries.get(f"{subsection}/{ending}", "")
         if name:
             return read(pathlib.Path(prm).parent / name)
