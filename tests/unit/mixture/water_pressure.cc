@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A pressure that is linear in space goes from points of water with its gradient to the vertices of their cells exactly.
+// A pressure that is linear in space goes from points of water with its gradient to the vertices of their cells
+// exactly.
 #include "../test.h"
 
 #include <scree/seeding/seeding.h>
@@ -37,7 +38,8 @@ void test()
         {
           ++n_cells;
           for (unsigned int v = 0; v < sums.n_vertices; ++v)
-            expect(sums.pressure_at_vertex[v] / sums.water_at_vertex[v], pressure(cell->vertex(v)), 1e-8, "pressure, Pa");
+            expect(
+                sums.pressure_at_vertex[v] / sums.water_at_vertex[v], pressure(cell->vertex(v)), 1e-8, "pressure, Pa");
         }
   require(sum_of_ranks(n_cells) == (dim == 2 ? 12 : 48), "cells with water");
 }
