@@ -6,10 +6,13 @@
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/IO/polygon_mesh_io.h>
+#include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/compute_normal.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Side_of_triangle_mesh.h>
@@ -44,9 +47,22 @@ namespace scree
       explicit SurfaceMesh(const ShapeRequest &request)
       {
         namespace polygons = CGAL::Polygon_mesh_processing;
-        request.require(polygons::IO::read_polygon_mesh(request.value, mesh) && !mesh.is_empty(),
-                        "it cannot be read as a surface of polygons. Write the path of a file in STL, OBJ or PLY "
-                        "in which each edge is that of two polygons.");
+        std::vector<Kernel::Point_3> corners;
+        std::vector<std::vector<std::size_t>> faces_of_file;
+        bool is_surface = CGAL::IO::read_polygon_soup(request.value, corners, faces_of_file);
+        for (const auto &face : faces_of_file)
+          for (const std::size_t corner : face)
+            is_surface = is_surface && corner < corners.size(); // not looked at by CGAL
+        if (is_surface)
+          {
+            polygons::repair_polygon_soup(corners, faces_of_file);
+            is_surface = !faces_of_file.empty() && polygons::orient_polygon_soup(corners, faces_of_file) &&
+                         polygons::is_polygon_soup_a_polygon_mesh(faces_of_file);
+          }
+        request.require(is_surface,
+                        "it cannot be read as a surface of polygons. Write the path of a file in STL, OBJ or PLY in "
+                        "which each edge is that of two polygons.");
+        polygons::polygon_soup_to_polygon_mesh(corners, faces_of_file, mesh);
         for (const auto vertex : mesh.vertices())
           mesh.point(vertex) -= Kernel::Vector_3(request.map_origin[0], request.map_origin[1], 0.);
         for (const auto edge : mesh.halfedges())
