@@ -13,7 +13,7 @@ fi
 
 # Packages -------------------------------------------------------------------------------------------------------------
 
-packages="libdeal.ii-dev libgdal-dev libopenmpi-dev openmpi-bin numdiff cmake ninja-build g++ python3-vtk9 python3-matplotlib python3-numpy python3-scipy python3-gdal xvfb${test_packages:+ $test_packages}"
+packages="libdeal.ii-dev libcgal-dev libgdal-dev libopenmpi-dev openmpi-bin numdiff cmake ninja-build g++ python3-vtk9 python3-matplotlib python3-numpy python3-scipy python3-gdal xvfb${test_packages:+ $test_packages}"
 
 # deal.II of Debian 13 links with mold, which its package does not bring.
 grep -q '^12' /etc/debian_version 2>/dev/null || packages="$packages mold"
