@@ -197,20 +197,23 @@ namespace scree
     for (auto &one : water)
       keep_off_walls(grid, faces_closed_to_water, one, report.balance);
     for (auto &body : soil.all_bodies())
-      report.soil += contact.project_to_boundary(body.points,
-                                                 body.layout,
-                                                 body.has_affine_energy,
-                                                 Phase::soil,
-                                                 time_step,
-                                                 largest_speed,
-                                                 faces_closed_to_soil,
-                                                 report.balance);
+      if (!body.is_rigid)
+        report.soil += contact.project_to_boundary(body.points,
+                                                   body.layout,
+                                                   body.has_affine_energy,
+                                                   Phase::soil,
+                                                   forces.mass_scaling(),
+                                                   time_step,
+                                                   largest_speed,
+                                                   faces_closed_to_soil,
+                                                   report.balance);
     for (auto &one : water)
       if (PointSet<dim> *own = one.own_points())
         contact.project_to_boundary(*own,
                                     one.layout,
                                     one.has_affine_energy,
                                     Phase::water,
+                                    forces.mass_scaling(),
                                     time_step,
                                     largest_speed,
                                     faces_closed_to_water,

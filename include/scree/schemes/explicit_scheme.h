@@ -75,6 +75,7 @@ namespace scree
                                                              body.layout,
                                                              body.has_affine_energy,
                                                              Phase::soil,
+                                                             forces.mass_scaling(),
                                                              time_step,
                                                              report.speeds.points,
                                                              group.closed_faces,

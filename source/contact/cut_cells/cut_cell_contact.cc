@@ -462,6 +462,7 @@ namespace scree
                                                            const Layout &layout,
                                                            const bool has_affine_energy,
                                                            const Phase phase,
+                                                           const double mass_scaling,
                                                            const double time_step,
                                                            const double largest_speed,
                                                            const std::uint8_t closed_faces,
@@ -504,7 +505,7 @@ namespace scree
             }
           lost -= energy();
         }
-      book(part, point.location, mass * given, lost, balance);
+      book(part, point.location, mass_scaling * mass * given, mass_scaling * lost, balance);
       for (unsigned int c = 0; c < dim; ++c)
         change.momentum[c] += mass * given[c];
       change.kinetic -= lost;
@@ -523,12 +524,14 @@ namespace scree
                                                                 const Phase,
                                                                 const double,
                                                                 const double,
+                                                                const double,
                                                                 const std::uint8_t,
                                                                 Budget<2> &) const;
   template MotionSums<2> CutCellContact<2>::project_to_boundary(PointSet<2> &,
                                                                 const WaterLayout<2> &,
                                                                 const bool,
                                                                 const Phase,
+                                                                const double,
                                                                 const double,
                                                                 const double,
                                                                 const std::uint8_t,
@@ -539,12 +542,14 @@ namespace scree
                                                                 const Phase,
                                                                 const double,
                                                                 const double,
+                                                                const double,
                                                                 const std::uint8_t,
                                                                 Budget<3> &) const;
   template MotionSums<3> CutCellContact<3>::project_to_boundary(PointSet<3> &,
                                                                 const WaterLayout<3> &,
                                                                 const bool,
                                                                 const Phase,
+                                                                const double,
                                                                 const double,
                                                                 const double,
                                                                 const std::uint8_t,

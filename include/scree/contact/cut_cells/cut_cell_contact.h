@@ -98,6 +98,7 @@ namespace scree
     /// place. Returns what that has changed of the points' momentum and energy.
     /// @tparam Layout of the points' quantities
     /// @param has_affine_energy see TransferParameters
+    /// @param mass_scaling see BodyForces
     /// @param largest_speed of the points of this rank, m/s
     /// @param closed_faces of the box, to the points: none is put through them
     template <typename Layout>
@@ -105,6 +106,7 @@ namespace scree
                                         const Layout &layout,
                                         const bool has_affine_energy,
                                         const Phase phase,
+                                        const double mass_scaling,
                                         const double time_step,
                                         const double largest_speed,
                                         const std::uint8_t closed_faces,
