@@ -198,10 +198,7 @@ namespace scree
       keep_off_walls(grid, faces_closed_to_water, one, report.balance);
     for (auto &body : soil.all_bodies())
       if (!body.is_rigid)
-        report.soil += contact.project_to_boundary(body.points,
-                                                   body.layout,
-                                                   body.has_affine_energy,
-                                                   Phase::soil,
+        report.soil += contact.project_to_boundary({ body.points, body.layout, body.has_affine_energy, Phase::soil },
                                                    forces.mass_scaling(),
                                                    time_step,
                                                    largest_speed,
@@ -209,10 +206,7 @@ namespace scree
                                                    report.balance);
     for (auto &one : water)
       if (PointSet<dim> *own = one.own_points())
-        contact.project_to_boundary(*own,
-                                    one.layout,
-                                    one.has_affine_energy,
-                                    Phase::water,
+        contact.project_to_boundary({ *own, one.layout, one.has_affine_energy, Phase::water },
                                     forces.mass_scaling(),
                                     time_step,
                                     largest_speed,

@@ -71,15 +71,13 @@ namespace scree
         if (!body.is_rigid)
           {
             Group &group = *std::next(groups.begin(), body.group);
-            report.soil += group.contact.project_to_boundary(body.points,
-                                                             body.layout,
-                                                             body.has_affine_energy,
-                                                             Phase::soil,
-                                                             forces.mass_scaling(),
-                                                             time_step,
-                                                             report.speeds.points,
-                                                             group.closed_faces,
-                                                             report.balance);
+            report.soil +=
+                group.contact.project_to_boundary({ body.points, body.layout, body.has_affine_energy, Phase::soil },
+                                                  forces.mass_scaling(),
+                                                  time_step,
+                                                  report.speeds.points,
+                                                  group.closed_faces,
+                                                  report.balance);
           }
     }
     SolverState<dim> solver_state() const override;

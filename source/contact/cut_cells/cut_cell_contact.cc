@@ -457,11 +457,7 @@ namespace scree
 
 
   template <int dim>
-  template <typename Layout>
-  MotionSums<dim> CutCellContact<dim>::project_to_boundary(PointSet<dim> &points,
-                                                           const Layout &layout,
-                                                           const bool has_affine_energy,
-                                                           const Phase phase,
+  MotionSums<dim> CutCellContact<dim>::project_to_boundary(const MovingPoints<dim> &moving,
                                                            const double mass_scaling,
                                                            const double time_step,
                                                            const double largest_speed,
@@ -474,21 +470,21 @@ namespace scree
     const TimedPart timed(timer, TimerSection::bed);
     balance.obstacles.resize(n_obstacles);
     const auto stop = [&](const auto &point, const unsigned int part, const Tensor<1, dim> &normal) {
-      double *own                   = point.properties + layout.velocity;
+      double *own                   = point.properties + moving.velocity;
       const Tensor<1, dim> velocity = vector_of<dim>(own), relative = velocity - velocity_of(part);
-      const double into = -(relative * normal), mass = point.properties[layout.mass];
+      const double into = -(relative * normal), mass = point.properties[moving.mass];
       if (into <= 0.)
         return;
       const Tensor<1, dim> along = relative + into * normal;
-      const double friction      = phase == Phase::soil ? surfaces[part].friction_coefficient * into : 0.,
+      const double friction      = moving.phase == Phase::soil ? surfaces[part].friction_coefficient * into : 0.,
                    speed         = along.norm();
       const Tensor<1, dim> given = into * normal - (speed > friction ? friction / speed : 1.) * along;
       for (unsigned int c = 0; c < dim; ++c)
         own[c] += given[c];
       double lost = -mass * (given * (velocity + 0.5 * given));
-      if (has_affine_energy)
+      if (moving.has_affine_energy)
         {
-          double *affine    = point.properties + layout.affine;
+          double *affine    = point.properties + moving.affine;
           const auto energy = [&] {
             return with_nodes_1d(grid, [&](auto n) {
               return 0.5 * mass *
@@ -512,46 +508,10 @@ namespace scree
     };
     // Nodes may be faster than points, and shifting moves by a tenth of a cell along each axis.
     const double farthest = 0.25 * grid.cell_size() + 2. * time_step * largest_speed;
-    move_out_of_ground<dim>(grid, *ground, farthest, closed_faces, points, stop);
+    move_out_of_ground<dim>(grid, *ground, farthest, closed_faces, moving.points, stop);
     return change;
   }
 
   template class CutCellContact<2>;
   template class CutCellContact<3>;
-  template MotionSums<2> CutCellContact<2>::project_to_boundary(PointSet<2> &,
-                                                                const PropertyLayout<2> &,
-                                                                const bool,
-                                                                const Phase,
-                                                                const double,
-                                                                const double,
-                                                                const double,
-                                                                const std::uint8_t,
-                                                                Budget<2> &) const;
-  template MotionSums<2> CutCellContact<2>::project_to_boundary(PointSet<2> &,
-                                                                const WaterLayout<2> &,
-                                                                const bool,
-                                                                const Phase,
-                                                                const double,
-                                                                const double,
-                                                                const double,
-                                                                const std::uint8_t,
-                                                                Budget<2> &) const;
-  template MotionSums<3> CutCellContact<3>::project_to_boundary(PointSet<3> &,
-                                                                const PropertyLayout<3> &,
-                                                                const bool,
-                                                                const Phase,
-                                                                const double,
-                                                                const double,
-                                                                const double,
-                                                                const std::uint8_t,
-                                                                Budget<3> &) const;
-  template MotionSums<3> CutCellContact<3>::project_to_boundary(PointSet<3> &,
-                                                                const WaterLayout<3> &,
-                                                                const bool,
-                                                                const Phase,
-                                                                const double,
-                                                                const double,
-                                                                const double,
-                                                                const std::uint8_t,
-                                                                Budget<3> &) const;
 } // namespace scree

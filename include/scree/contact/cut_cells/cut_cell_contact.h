@@ -12,6 +12,32 @@
 
 namespace scree
 {
+  /// Points that meet the ground, and where their quantities lie.
+  template <int dim>
+  struct MovingPoints
+  {
+    /// Takes the slots of a layout.
+    /// @param layout of soil or water
+    /// @param has_affine_energy see TransferParameters
+    template <typename Layout>
+    MovingPoints(PointSet<dim> &points, const Layout &layout, const bool has_affine_energy, const Phase phase)
+        : points(points)
+        , velocity(layout.velocity)
+        , mass(layout.mass)
+        , affine(layout.affine)
+        , has_affine_energy(has_affine_energy)
+        , phase(phase)
+    {
+    }
+
+    PointSet<dim> &points;        ///< moved where they are below ground
+    const unsigned int velocity,  ///< slot
+        mass,                     ///< slot
+        affine;                   ///< first slot, if it is there
+    const bool has_affine_energy; ///< whether the affine field is there and counts
+    const Phase phase;            ///< water has no friction
+  };
+
   /// Rigid ground, the bed and obstacles: takes from soil and water at the nodes what would carry them through it.
   ///
   /// The ground in a cell is a segment for each of its parts; a field's velocity there is its mean over the segment,
@@ -96,16 +122,10 @@ namespace scree
     /// have left of their velocity into the ground goes to it, soil with its friction, and so does the slope of their
     /// affine field along the normal: a grain on the ground by itself, whose nodes are light, would else fall at its
     /// place. Returns what that has changed of the points' momentum and energy.
-    /// @tparam Layout of the points' quantities
-    /// @param has_affine_energy see TransferParameters
     /// @param mass_scaling see BodyForces
     /// @param largest_speed of the points of this rank, m/s
     /// @param closed_faces of the box, to the points: none is put through them
-    template <typename Layout>
-    MotionSums<dim> project_to_boundary(PointSet<dim> &points,
-                                        const Layout &layout,
-                                        const bool has_affine_energy,
-                                        const Phase phase,
+    MotionSums<dim> project_to_boundary(const MovingPoints<dim> &moving,
                                         const double mass_scaling,
                                         const double time_step,
                                         const double largest_speed,
