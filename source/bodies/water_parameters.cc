@@ -189,7 +189,7 @@ namespace scree
     for (const auto &[name, text] :
          { std::make_pair("Phreatic surface", phreatic_surface), std::make_pair("Reservoir level", reservoir_level) })
       if (!text.empty())
-        check_expression(dim, entry_name("Water", name), text, 1, false, "8 - 0.2*x");
+        check_expression(dim, entry_name("Water", name), text, 1, "", "8 - 0.2*x");
   }
 
 

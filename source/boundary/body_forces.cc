@@ -115,7 +115,7 @@ namespace scree
     {
     public:
       explicit ExpressionForce(const std::string &text)
-          : function(parse_expression<dim>(entry_name("", "Body force"), text, dim, true))
+          : function(parse_expression<dim>(entry_name("", "Body force"), text, dim, "t"))
       {
       }
 

@@ -274,13 +274,15 @@ namespace scree
       if (body.material.law != "Mohr-Coulomb")
         return;
       const auto &law = body.material.of<MohrCoulombParameters>();
-      if (law.cohesion > 0. && law.tension_cut_off == 0. && law.cut_off != "auto")
+      if ((law.cohesion > 0. || !law.cohesion_of_place.empty()) && law.tension_cut_off == 0. && law.cut_off != "auto")
         remarks.push_back(
             "Unusual value: " +
-            entry_message({ body.material.path(body.name), "Tension cut-off", "0" },
-                          "with cohesion, here " + number_text(law.cohesion) +
-                              " Pa, soil in water opens as soon as it shears, and the suction of the pores slows it. "
-                              "Write auto, or a cut-off above 0, such as the cohesion."));
+            entry_message(
+                { body.material.path(body.name), "Tension cut-off", "0" },
+                "with cohesion, here " +
+                    (law.cohesion_of_place.empty() ? number_text(law.cohesion) + " Pa" : law.cohesion_of_place) +
+                    ", soil in water opens as soon as it shears, and the suction of the pores slows it. "
+                    "Write auto, or a cut-off above 0, such as the cohesion."));
     }
 
 
@@ -407,6 +409,17 @@ namespace scree
                                            "Consistency",
                                            "Flow index" };
 
+    /// Whether points have the strength of the law of this subsection from their place.
+    bool varies(const CaseEntries &entries, const std::string &subsection)
+    {
+      const auto is_text = [&](const std::string &name) {
+        const CaseEntry *entry = entries.find(subsection, name);
+        return entry && std::isnan(number_of(entry->value));
+      };
+      return is_text("Cohesion") || is_text("Friction angle");
+    }
+
+
     Change kind_of(const CaseEntry &entry, const CaseEntry *before, const CaseEntry *now, const bool begins_stage)
     {
       if (begins_stage)
@@ -449,6 +462,9 @@ namespace scree
       if (was && is && same_value(*was, *is))
         return;
       Change kind = kind_of(entry, was, is, begins_stage);
+      if ((entry.name == "Cohesion" || entry.name == "Friction angle") && kind == Change::noted &&
+          (varies(before, entry.subsection) || varies(now, entry.subsection)))
+        kind = Change::refused; // Points have it from the start on.
       if (kind == Change::noted_at_release)
         kind = checkpoint.step > 0 ? Change::refused : Change::noted;
       const bool are_files = was && is && !was->checksum.empty() && !is->checksum.empty();

@@ -109,6 +109,10 @@ namespace scree
                   "this entry has no effect, as the file has no subsection Water. Add one, or remove the entry.");
     material.check(name);
     initial_state.check(name, gravity);
+    if (initial_state.is_k0() && initial_state.k0 == "auto" && material.law == "Mohr-Coulomb")
+      require_entry(material.of<MohrCoulombParameters>().friction_angle_of_place.empty(),
+                    { subsection_path(name, "Initial state"), "K0", "auto" },
+                    "the friction angle differs from place to place. Write a number.");
     if (is_rigid())
       check_rigid();
   }

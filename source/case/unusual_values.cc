@@ -41,7 +41,6 @@ namespace scree
                { "Young's modulus", modulus },
                { "Shear modulus", modulus },
                { "Bulk modulus", { 1e4, 1e11, pascal } },
-               { "Strength gradient", { 50., 1e6, "Pa/m (1 kPa/m = 1e3 Pa/m)" } },
                { "Consistency", { 1e-3, 1e6, "Pa s^n" } },
                { "Viscosity", { 1e-4, 1e5, "Pa s (1 mPa s = 1e-3 Pa s)" } },
                { "Grain density", { 900., 8e3, density } },
@@ -58,7 +57,8 @@ namespace scree
     }
 
 
-    /// The value of an entry: of a vector its size, of expressions the largest one in the middle of the box; NaN of
+    /// The value of an entry: of a vector its size, of expressions the largest one at the middle of the
+    /// box, over the time or over the depths that it has; NaN of
     /// other texts.
     template <int dim>
     double largest_value(const Parameters &parameters, const CaseEntry &entry)
@@ -73,14 +73,15 @@ namespace scree
       Point<dim> middle;
       for (unsigned int a = 0; a < dim; ++a)
         middle[a] = 0.5 * (parameters.grid.lower_corner[a] + parameters.grid.upper_corner[a]);
+      const bool has_depth            = uses_depth(text);
       const unsigned int n_components = 1 + std::count(text.begin(), text.end(), ';');
       try
         {
-          const auto values = parse_expression<dim>("", text, n_components, true);
+          const auto values = parse_expression<dim>("", text, n_components, has_depth ? "depth" : "t");
           double largest    = 0.;
           for (unsigned int i = 0; i <= n_times; ++i)
             {
-              values->set_time(i * parameters.end_time / n_times);
+              values->set_time(i * (has_depth ? parameters.grid.lengths().back() : parameters.end_time) / n_times);
               double square = 0.;
               for (unsigned int c = 0; c < n_components; ++c)
                 square += Utilities::fixed_power<2>(values->value(middle, c));

@@ -40,9 +40,8 @@ namespace scree
   {
     State state;
     state.internal_variables.resize(material->internal_quantities.size());
-    if (const PlaceVariable variable = material->place_variable; !variable.expression.empty())
-      PlaceVariableValues<3>(variable, parameters.material.path(""))
-          .set(Point<3>(), 0., state.internal_variables.data());
+    PlaceVariables<3>(material->place_variables, parameters.material.path(""))
+        .set(Point<3>(), 0., state.internal_variables.data());
     std::array<double, 6> wanted{};
     set_k0_components(parameters.confining_pressure, parameters.K0, /* axis */ 1, wanted.data());
     material->initialise(

@@ -5,6 +5,7 @@
 
 #include <boost/property_tree/json_parser.hpp>
 
+#include <regex>
 #include <sstream>
 
 namespace scree
@@ -18,6 +19,62 @@ namespace scree
                       path,
                       documentation + " The path is relative to the folder of the case file.",
                       Patterns::FileName(Patterns::FileName::input));
+  }
+
+
+  namespace
+  {
+    constexpr char place_text[] =
+        " It may be an expression of x, y (z), m, of the place at the start and of depth, m of soil above it. Or it "
+        "names a file of values on the map: a raster (.asc, .tif), or lines of x, y (z) and value (.csv, .txt), of "
+        "which the nearest counts.";
+
+    bool ends_with_one_of(const std::string &text, const std::string &ends)
+    {
+      return std::regex_search(text, std::regex("\\.(" + ends + ")$", std::regex::icase));
+    }
+  } // namespace
+
+
+  void add_place_entry(ParameterHandler &prm,
+                       const std::string &entry,
+                       double &number,
+                       std::string &of_place,
+                       const std::string &documentation)
+  {
+    prm.declare_entry(
+        entry, of_place.empty() ? number_text(number) : of_place, Patterns::Anything(), documentation + place_text);
+    prm.add_action(entry, [&number, &of_place](const std::string &value) {
+      const double read = number_of(value);
+      of_place          = !std::isnan(read) ? "" : value.empty() ? " " : value; // which does not read
+      number            = std::isnan(read) ? number : read;
+    });
+  }
+
+
+  bool names_place_file(const std::string &value)
+  {
+    return is_raster(value) || ends_with_one_of(value, "csv|txt");
+  }
+
+
+  bool is_raster(const std::string &file)
+  {
+    return ends_with_one_of(file, "asc|tiff?");
+  }
+
+
+  bool uses_depth(const std::string &text)
+  {
+    return std::regex_search(text, std::regex("\\bdepth\\b"));
+  }
+
+
+  bool CaseEntry::names_file(const std::string &value) const
+  {
+    return std::isnan(number_of(value)) &&
+           (pattern == Patterns::FileName(Patterns::FileName::input).description() ||
+            (documentation.find(place_text) != std::string::npos && names_place_file(value)));
   }
 
 

@@ -44,11 +44,11 @@ namespace scree
 
     /// What keeps the expressions from being read; empty: nothing.
     template <int dim>
-    std::string read_expressions(Expression<dim> &function, const std::string &text, const bool with_time)
+    std::string read_expressions(Expression<dim> &function, const std::string &text, const std::string &further)
     {
       const unsigned int n_components = function.n_components;
       const std::string variables =
-          dim == 1 ? "t" : FunctionParser<dim>::default_variable_names() + (with_time ? ",t" : "");
+          dim == 1 ? "t" : FunctionParser<dim>::default_variable_names() + (further.empty() ? "" : "," + further);
       if (const auto n = Utilities::split_string_list(text, ';').size(); n != n_components)
         return std::to_string(n) + " expression(s) where " + std::to_string(n_components) + " are needed";
       if (const std::string fault = misleading_sign(text); !fault.empty())
@@ -59,7 +59,7 @@ namespace scree
           const std::unique_ptr<std::streambuf, void (*)(std::streambuf *)> screen(
               std::cerr.rdbuf(nullptr), [](std::streambuf *buffer) { std::cerr.rdbuf(buffer); });
           // muParser reads an expression when it is first evaluated.
-          function.initialize(variables, text, { { "pi", numbers::PI } }, with_time);
+          function.initialize(variables, text, { { "pi", numbers::PI } }, !further.empty());
           for (unsigned int c = 0; c < n_components; ++c)
             function.FunctionParser<dim>::value(Point<dim>(), c);
         }
@@ -81,14 +81,14 @@ namespace scree
   std::unique_ptr<Expression<dim>> parse_expression(const std::string &where,
                                                     const std::string &text,
                                                     const unsigned int n_components,
-                                                    const bool with_time,
+                                                    const std::string &further,
                                                     const std::string &example_of_one)
   {
     const std::string of_one  = !example_of_one.empty() ? example_of_one
                                 : dim == 1              ? "2*min(t/5, 1)"
                                                         : "if(x < 2, y < 2, y < 4 - x)";
-    auto function             = std::make_unique<Expression<dim>>(where + " = " + text, n_components, with_time);
-    const std::string fault   = read_expressions(*function, text, with_time);
+    auto function             = std::make_unique<Expression<dim>>(where + " = " + text, n_components, further);
+    const std::string fault   = read_expressions(*function, text, further);
     const std::string last    = dim == 1 ? "0.1*t" : "-2*x";
     const std::string example = n_components == 1 ? of_one : n_components == 2 ? "0; " + last : "0; 0; " + last;
     const std::string names   = dim == 1 ? "t" : dim == 2 ? "x, y" : "x, y, z";
@@ -99,7 +99,7 @@ namespace scree
     if (!fault.empty())
       throw EntryError(where + " = " + text + ": " + fault + (has_not ? ". In place of !(...) write (...) == 0" : "") +
                        ". Write " + (n_components == 1 ? "an expression" : "expressions, separated by semicolons,") +
-                       " of " + names + (with_time ? ", t" : "") +
+                       " of " + names + (further.empty() ? "" : ", " + further) +
                        (blank_missing ? ", with blanks around && and ||" : "") + ", for instance " + example);
     return function;
   }
@@ -113,12 +113,12 @@ namespace scree
                         const std::string &where,
                         const std::string &text,
                         const unsigned int n_components,
-                        const bool with_time,
+                        const std::string &further,
                         const std::string &example)
   {
     if (dim == 2)
-      parse_expression<2>(where, text, n_components, with_time, example);
+      parse_expression<2>(where, text, n_components, further, example);
     else
-      parse_expression<3>(where, text, n_components, with_time, example);
+      parse_expression<3>(where, text, n_components, further, example);
   }
 } // namespace scree

@@ -379,8 +379,7 @@ namespace scree
     std::vector<NamedFile> result;
     for (Statement &statement : statements)
       if (const CaseEntry *entry = declared.find(statement.path, statement.name);
-          statement.kind == Kind::set && entry && std::isnan(number_of(statement.value)) &&
-          entry->pattern == Patterns::FileName(Patterns::FileName::input).description())
+          statement.kind == Kind::set && entry && entry->names_file(statement.value))
         {
           statement.path_of_file = path_beside(statement.file, statement.value);
           if (!statement.value.empty() && find(statement.path, statement.name) == &statement) // The last one counts.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/case_entries.h>
 #include <scree/materials/table.h>
 
 
@@ -110,8 +111,54 @@ namespace scree
   }
 
 
-  template class PlaceVariableValues<2>;
-  template class PlaceVariableValues<3>;
   template std::unique_ptr<Material<2>> make_material<2>(const MaterialParameters &);
   template std::unique_ptr<Material<3>> make_material<3>(const MaterialParameters &);
+
+
+  template <int dim>
+  PlaceVariables<dim>::PlaceVariables(const std::vector<PlaceVariable> &variables,
+                                      const std::string &subsection,
+                                      const Point<2> &origin)
+  {
+    for (const PlaceVariable &variable : variables)
+      {
+        const std::string entry = entry_name(subsection, variable.entry), &text = variable.of_place;
+        require_entry(text != " ",
+                      { subsection, variable.entry, "" },
+                      "write a number in " + variable.unit + ", an expression or the name of a file.");
+        fields.push_back({ variable, entry + " = " + (text.empty() ? number_text(variable.constant) : text), nullptr });
+        if (!text.empty())
+          fields.back().field =
+              std::make_shared<const PlaceField<dim>>(entry,
+                                                      text,
+                                                      variable.entry + " (" + variable.unit + ')',
+                                                      variable.unit == "Pa" ? "5e3 + 2e3*depth" : "30 - 0.5*depth",
+                                                      origin);
+      }
+  }
+
+
+  template <int dim>
+  bool PlaceVariables<dim>::has_depth() const
+  {
+    return std::any_of(fields.begin(), fields.end(), [](const Field &field) { return uses_depth(field.of_place); });
+  }
+
+
+  template <int dim>
+  void PlaceVariables<dim>::set(const Point<dim> &place, const double depth, double *internal_variables) const
+  {
+    for (const Field &field : fields)
+      {
+        const double value               = field.value(place, depth);
+        internal_variables[field.number] = field.stored ? field.stored(value) : value;
+      }
+    for (const Field &field : fields)
+      if (const std::string fault = field.fault(internal_variables); !fault.empty())
+        throw ValueError(field.name + ": the value at " + number_text(place) + " m is " +
+                         number_text(field.value(place, depth)) + ". " + fault);
+  }
+
+  template class PlaceVariables<2>;
+  template class PlaceVariables<3>;
 } // namespace scree

@@ -550,9 +550,8 @@ namespace scree
     SoilBody<dim> &body           = body_named(inflow.body, bodies);
     const auto &layout            = body.layout;
     const BodyParameters &entries = *parameters.find_body(body.name);
-    std::unique_ptr<PlaceVariableValues<dim>> of_place; // what the law has from the place; null: nothing
-    if (const PlaceVariable variable = body.material->place_variable; !variable.expression.empty())
-      of_place = std::make_unique<PlaceVariableValues<dim>>(variable, entries.material.path(body.name));
+    const PlaceVariables<dim> of_place(
+        body.material->place_variables, entries.material.path(body.name), parameters.bed.map_origin);
     double stress[n_symmetric_components<dim>] = {};
     if (entries.initial_state.is_isotropic())
       std::fill_n(stress, 3, -entries.initial_state.pressure);
@@ -568,8 +567,7 @@ namespace scree
           std::copy_n(&entrant.location[0], dim, properties.begin() + layout.start);
           double *variables = properties.data() + layout.internal_variables;
           double *strain    = properties.data() + layout.left_cauchy_green;
-          if (of_place)
-            of_place->set(entrant.location, 0., variables);
+          of_place.set(entrant.location, 0., variables);
           body.material->initialise(stress, strain, properties.data() + layout.stress, variables);
           ++totals.n_entered;
           totals.entered_mass += properties[layout.mass];
@@ -751,18 +749,18 @@ namespace scree
 
   namespace
   {
-    /// Gives the points of a body what its law has from the place, with the depth along the last axis below the soil's
-    /// surface. `subsection` is the law's.
+    /// Gives the points of a body what its law has from the place, where depth is that of soil above it, along the last
+    /// axis. `subsection` is the law's, `origin` that of PlaceField.
     template <int dim>
     void set_place_values(SoilBody<dim> &body,
                           const std::string &subsection,
+                          const Point<2> &origin,
                           const std::vector<SoilRegion> &soil,
                           const BackgroundGrid<dim> &grid)
     {
-      const PlaceVariable variable = body.material->place_variable;
-      if (variable.expression.empty())
+      if (body.material->place_variables.empty())
         return;
-      const PlaceVariableValues<dim> values(variable, subsection);
+      const PlaceVariables<dim> values(body.material->place_variables, subsection, origin);
       std::vector<typename Overburden<dim>::Layer> layers;
       for (const SoilRegion &part : soil)
         layers.emplace_back(part.template places<dim>(), 1.); // a weight per depth of 1
@@ -772,7 +770,7 @@ namespace scree
       on_all_ranks(grid.communicator(), [&] {
         for_each_point(body.points, [&](const auto &point) {
           values.set(point.location,
-                     variable.gradient > 0 ? depth.weight_above(point.location) : 0.,
+                     values.has_depth() ? depth.weight_above(point.location) : 0.,
                      point.properties + body.layout.internal_variables);
         });
       });
@@ -795,7 +793,7 @@ namespace scree
           continue;
         const std::string modulus = entries.material.modulus_text(body.name);
         const double k0           = entries.k0();
-        set_place_values(body, entries.material.path(body.name), soil, grid);
+        set_place_values(body, entries.material.path(body.name), parameters.bed.map_origin, soil, grid);
         if (!state.is_k0())
           {
             set_isotropic_stress(body, state.is_isotropic() ? state.pressure : 0., modulus, communicator);
@@ -880,7 +878,7 @@ namespace scree
                       { name, entries.seeding.place().first, entries.seeding.place().second },
                       "more than a tenth of it is full of other soil when \"" + entries.added_by +
                           "\" begins. Let it begin at the ground.");
-        set_place_values(body, entries.material.path(name), { region }, grid);
+        set_place_values(body, entries.material.path(name), parameters.bed.map_origin, { region }, grid);
         set_isotropic_stress(body, 0., entries.material.modulus_text(name), communicator);
         masses.added_soil += body.density * volume;
       }

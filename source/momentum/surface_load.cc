@@ -104,7 +104,7 @@ namespace scree
                         "this entry has no effect. Remove it, or write a \"Traction\", in Pa.");
         return;
       }
-    check_expression(dim, entry_name(subsection, "Traction"), traction, dim, true);
+    check_expression(dim, entry_name(subsection, "Traction"), traction, dim, "t");
 
     for (const auto &[name, corner] : corners)
       {
@@ -143,8 +143,7 @@ namespace scree
       , normal(parameters.normal_axis(dim))
       , markers(grid.triangulation(), grid.mapping(), 1)
       , nodes(grid.numbering())
-      , function(
-            parse_expression<dim>(entry_name("Surface load", "Traction"), parameters.traction, dim, /*with_time*/ true))
+      , function(parse_expression<dim>(entry_name("Surface load", "Traction"), parameters.traction, dim, "t"))
   {
     const double cell_size   = grid.cell_size();
     const double layer_lower = parameters.layer_below(normal, grid.lower_corner()[normal], cell_size);

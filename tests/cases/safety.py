@@ -89,6 +89,21 @@ def clay_graded_slope():
     clay("graded_slope", 5.653 * 4.5e3 / (2000 * 9.81), 0.05, **{"Mesh/Cell size": 0.5, "Safety/Tolerance": 0.01})
 
 
+def clay_random_field():
+    """With a table of one value 1.47 by Griffiths & Fenton (2004); a random field of this mean is weaker."""
+    field = HERE.parents[1] / "prm/clay/random_field.prm"
+    lines = field.with_suffix(".csv").read_text(encoding="utf-8").splitlines()
+    brackets = {}
+    for name, table in (("field", lines), ("one", [re.sub(r",\d+$", ",50000", line) for line in lines])):
+        pathlib.Path(name).mkdir(exist_ok=True)
+        pathlib.Path(name, "strength.csv").write_text("\n".join(table), encoding="utf-8")
+        results = run(name, slope(field, **{"Safety/Tolerance": 0.02, "Soil/Tresca/Undrained strength": "strength.csv"}), "--safety")
+        brackets[name] = bracket(trials(results))
+    print(brackets)
+    check(abs(0.5 * sum(brackets["one"]) / 1.47 - 1) < 0.05, "the factor deviates from 1.47 by 5 % or more")
+    check(1 < brackets["field"][0] and brackets["field"][1] < 0.95 * brackets["one"][0], "the field is not weaker")
+
+
 def range_and_stop():
     """Soil far too weak is an error; a search that is stopped keeps its trials."""
     folder = pathlib.Path("range")

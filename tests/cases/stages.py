@@ -65,6 +65,7 @@ def refusals():
                            ({"Fill/Initial state/Type": "K0"}, "adds this body"),
                            ({"Stage Dig/Mesh/Cell size": 0.25}, "a stage cannot change that"),
                            ({"Stage Dig/Soil/Mohr-Coulomb/Young's modulus": 3e6}, "a stage cannot change that"),
+                           ({"Soil/Mohr-Coulomb/Friction angle": "30 + depth", "Soil/Initial state/K0": 1, "Stage Dig/Soil/Mohr-Coulomb/Cohesion": 2e4}, "a stage cannot change that"),
                            ({"Fill/Region": "y > 2 && y < 5"}, "is full of other soil"),
                            ({"Stage Dig/Remove": "y > 0"}, "no soil is left"),
                            ({"Stage Dig/Remove": "y > 9"}, "no point is there"),

@@ -278,7 +278,7 @@ namespace scree
     /// @param where entry_name(), for messages
     /// @param length of what the mesh resolves, m
     ExpressionSurface(const std::string &where, const std::string &expression, const double length)
-        : function(parse_expression<dim>(where, expression, 1, false, dim == 2 ? "y - 0.2*x" : "z - 0.2*x"))
+        : function(parse_expression<dim>(where, expression, 1, "", dim == 2 ? "y - 0.2*x" : "z - 0.2*x"))
         , length(length)
     {
     }

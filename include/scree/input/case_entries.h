@@ -33,6 +33,25 @@ namespace scree
                       std::string &path,
                       const std::string &documentation);
 
+  /// Declares an entry that may differ from place to place: a number, an expression of x, y (z) of the place at the
+  /// start and of `depth`, or a file of values, see PlaceField. Where it is a number, `number` is set and `of_place` is
+  /// empty; else `of_place` is the text, with the path of a file from the working folder, and `number` is left as it
+  /// is.
+  void add_place_entry(dealii::ParameterHandler &prm,
+                       const std::string &entry,
+                       double &number,
+                       std::string &of_place,
+                       const std::string &documentation);
+
+  /// Whether the value of such an entry names a file, by the end of its name.
+  bool names_place_file(const std::string &value);
+
+  /// Whether this file is a raster, by the end of its name; else it is a table.
+  bool is_raster(const std::string &file);
+
+  /// Whether the text of such an entry has the variable `depth`.
+  bool uses_depth(const std::string &text);
+
   /// An entry of a case with its value, set or default.
   struct CaseEntry
   {
@@ -42,6 +61,9 @@ namespace scree
         checksum        = ""; ///< of the contents of the file it names; empty if it names none
     std::string pattern = "", ///< deal.II's description of allowed values, if `prm` has declared the entry
         documentation   = ""; ///< text of the manual, if `prm` has declared the entry
+
+    /// Whether this value of the entry names a file to be read, see add_file_entry() and add_place_entry().
+    bool names_file(const std::string &value) const;
   };
 
   /// All entries of a case, those of a subsection before those of the subsections in it.

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -124,15 +125,17 @@ namespace scree
     unsigned int averaged = 0; ///< number of the one that is set
   };
 
-  /// An internal variable that each point has from its place at the start: an expression plus gradient times depth.
+  /// An internal variable that each point has from its place at the start.
   struct PlaceVariable
   {
-    std::string entry;                                             ///< name of the entry of the expression
-    std::string expression;                                        ///< of x, y (z), in m; empty: there is no variable
-    double gradient     = 0;                                       ///< per metre below the surface of the soil
-    unsigned int number = 0;                                       ///< of the variable
-    double largest      = std::numeric_limits<double>::infinity(); ///< largest value that the law can follow
-    std::string remedy;                                            ///< what helps beyond that
+    std::string entry;                                         ///< name of the entry, see add_place_entry()
+    std::string unit;                                          ///< of the entry
+    double constant = 0;                                       ///< value of the entry everywhere, unless
+    std::string of_place;                                      ///< is its text; empty: it is constant
+    unsigned int number = 0;                                   ///< of the variable
+    std::function<double(double)> stored;                      ///< the variable from the value; null: the same
+    std::function<std::string(const double *variables)> fault; ///< of the variables of a point, and what to do; empty:
+                                                               ///< the law can follow them
   };
 
   /// What a law says of itself, whatever the state of a point. A law sets in its constructor what differs.
@@ -142,11 +145,11 @@ namespace scree
     double initial_porosity = 0;                                       ///< if the law fixes it (Nor-Sand: 1 - 1/v_0)
     double plane_friction   = std::numeric_limits<double>::infinity(); ///< tau/sigma on a plane that shears steadily;
                                                                        ///< infinite without yield or with cohesion
-    double grain_diameter = 0;                 ///< of a friction that grows with the rate of shear, m; 0: it does not
-    NonlocalVariable nonlocal_variable;        ///< what is averaged over space
-    PlaceVariable place_variable;              ///< what each point has from its place, before initialise()
-    std::vector<Quantity> internal_quantities; ///< a point's internal variables in storage order
-    std::vector<Quantity> output_quantities;   ///< derived fields, in the order of Material::output()
+    double grain_diameter = 0;                  ///< of a friction that grows with the rate of shear, m; 0: it does not
+    NonlocalVariable nonlocal_variable;         ///< what is averaged over space
+    std::vector<PlaceVariable> place_variables; ///< what each point has from its place, before initialise()
+    std::vector<Quantity> internal_quantities;  ///< a point's internal variables in storage order
+    std::vector<Quantity> output_quantities;    ///< derived fields, in the order of Material::output()
 
     /// Whether the law has no plastic strain, as it has no internal variables.
     bool is_elastic() const
@@ -197,7 +200,7 @@ namespace scree
     virtual Batch elastic_energies(const Batch *left_cauchy_green) const = 0;
 
     /// State of one point that has the Cauchy stress `wanted_stress` (Pa, components) at J = 1: fills
-    /// `left_cauchy_green`, `stress` and `internal_variables`, of which that of place_variable is set before.
+    /// `left_cauchy_green`, `stress` and `internal_variables`, of which those of place_variables are set before.
     /// `stress` may be `wanted_stress`, and equals it but where the law holds it for separated (no stress). Throws
     /// dealii::ExcMessage if the law cannot carry the stress.
     virtual void initialise(const double *wanted_stress,

@@ -2,7 +2,8 @@
 #ifndef scree_materials_table_h
 #define scree_materials_table_h
 
-#include <scree/input/expression.h>
+#include <scree/geometry/place_field.h>
+#include <scree/input/input_error.h>
 #include <scree/materials/law_entries.h>
 
 #include <map>
@@ -91,43 +92,37 @@ namespace scree
   std::unique_ptr<Material<dim>> make_material(const MaterialParameters &parameters);
 
 
-  /// Gives points the variable of their law that depends on the place, see PlaceVariable.
+  /// Gives points the variables of their law that depend on the place, see PlaceVariable.
   template <int dim>
-  class PlaceVariableValues
+  class PlaceVariables
   {
   public:
-    /// Reads the expression. Throws EntryError, which names the entry in this subsection, if it is none.
-    PlaceVariableValues(const PlaceVariable &variable, const std::string &subsection)
-        : variable(variable)
-        , name(entry_name(subsection, variable.entry) + " = " + variable.expression)
-        , expression(parse_expression<dim>(entry_name(subsection, variable.entry),
-                                           variable.expression,
-                                           1,
-                                           false,
-                                           "5e3 - 2e3*y"))
-    {
-    }
+    /// Reads expressions and files. Throws EntryError, which names the entry in this subsection, if one does not read.
+    /// @param origin see PlaceField
+    PlaceVariables(const std::vector<PlaceVariable> &variables,
+                   const std::string &subsection,
+                   const dealii::Point<2> &origin = {});
 
-    /// Sets the variable at a place. Throws ValueError if the value is not positive, or beyond what the law can follow.
-    /// @param depth below the surface, m
-    void set(const dealii::Point<dim> &place, const double depth, double *internal_variables) const
-    {
-      const double value = expression->value(place) + variable.gradient * depth;
-      const auto fault   = [&](const std::string &remedy) {
-        return ValueError(name + ": the value at " + number_text(place) + " m is " + number_text(value) + ". " +
-                          remedy);
-      };
-      if (!(value > 0))
-        throw fault("Write an expression that is positive in the whole body.");
-      if (value > variable.largest)
-        throw fault("Beyond " + number_text(variable.largest) + ", " + variable.remedy);
-      internal_variables[variable.number] = value;
-    }
+    /// Whether they depend on the depth.
+    bool has_depth() const;
+
+    /// Sets the variables at a place. Throws ValueError if the law cannot follow them.
+    /// @param depth of soil above the place, m
+    void set(const dealii::Point<dim> &place, const double depth, double *internal_variables) const;
 
   private:
-    const PlaceVariable variable;
-    const std::string name; // of the entry, and its text
-    const std::unique_ptr<Expression<dim>> expression;
+    struct Field : PlaceVariable
+    {
+      std::string name;                             // of the entry, and its text
+      std::shared_ptr<const PlaceField<dim>> field; // null: constant
+
+      double value(const dealii::Point<dim> &place, const double depth) const
+      {
+        return field ? field->value(place, depth) : this->constant;
+      }
+    };
+
+    std::vector<Field> fields;
   };
 } // namespace scree
 

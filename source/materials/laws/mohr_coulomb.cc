@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/case_entries.h>
 #include <scree/input/input_error.h>
 #include <scree/materials/laws/mohr_coulomb.h>
 
@@ -19,6 +20,7 @@ namespace scree
       return degrees * numbers::PI / 180;
     }
 
+    constexpr double largest_angle = 89;                  // of friction, degrees
     constexpr char of_plane[] = "direct shear or repose"; // kind of a friction angle: tau/sigma on a plane of shear
   }                                                       // namespace
 
@@ -96,7 +98,7 @@ namespace scree
   void MohrCoulombParameters::add_parameters(ParameterHandler &prm)
   {
     LinearElasticParameters::add_parameters(prm);
-    prm.add_parameter("Friction angle", friction_angle, "degrees; friction angle phi.", Patterns::Double(0, 89));
+    add_place_entry(prm, "Friction angle", friction_angle, friction_angle_of_place, "degrees; friction angle phi.");
     prm.add_parameter("Friction angle kind",
                       angle_kind,
                       "Test that \"Friction angle\" comes from. triaxial: phi is this angle. plane strain: the same. "
@@ -106,7 +108,7 @@ namespace scree
                       dilation_angle,
                       "degrees; dilation angle psi, at most the friction angle.",
                       Patterns::Double(0, 89));
-    prm.add_parameter("Cohesion", cohesion, "Pa; cohesion c.", Patterns::Double(0));
+    add_place_entry(prm, "Cohesion", cohesion, cohesion_of_place, "Pa; cohesion c.");
     prm.add_parameter("Tension cut-off",
                       cut_off,
                       "Pa; largest principal stress, at most c cot(phi). auto: with water the cohesion, or what it may "
@@ -186,6 +188,10 @@ namespace scree
   void MohrCoulombParameters::complete(const std::string &subsection, const bool in_water)
   {
     const MohrCoulombParameters last = residual();
+    require_entry(cut_off != "auto" || !in_water || !varies(),
+                  { subsection, "Tension cut-off", cut_off },
+                  "in water it depends on the strength, which differs from place to place. Write a number, in Pa, at "
+                  "most the least cohesion.");
     if (cut_off == "auto")
       tension_cut_off = in_water ? std::min({ cohesion, apex(), last.cohesion, last.apex() }) : 0.;
     else
@@ -196,9 +202,26 @@ namespace scree
   }
 
 
+  void MohrCoulombParameters::check_varying(const std::string &subsection) const
+  {
+    const auto [entry, text] = cohesion_of_place.empty() ? std::make_pair("Friction angle", friction_angle_of_place)
+                                                         : std::make_pair("Cohesion", cohesion_of_place);
+    require_entry(!softening.is_active(),
+                  { subsection, entry, text },
+                  "a strength that differs from place to place cannot soften. Write a number, or remove \"Softening "
+                  "strain\".");
+  }
+
+
   void MohrCoulombParameters::check(const std::string &subsection) const
   {
     LinearElasticParameters::check(subsection);
+    require_entry(friction_angle >= 0 && friction_angle <= largest_angle,
+                  { subsection, "Friction angle", friction_angle },
+                  "write a number from 0 to 89, in degrees.");
+    require_entry(cohesion >= 0, { subsection, "Cohesion", cohesion }, "write a number from 0 on, in Pa.");
+    if (varies())
+      return check_varying(subsection);
     require_entry(dilation_angle <= friction_angle,
                   { subsection, "Dilation angle", dilation_angle },
                   "beyond the friction angle, here " + number_text(friction_angle) +
@@ -242,6 +265,12 @@ namespace scree
 
   bool MohrCoulombParameters::divide_strength(const double factor)
   {
+    if (varies())
+      {
+        reduction *= factor;
+        tension_cut_off /= factor;
+        return true;
+      }
     MohrCoulombParameters last = residual(); // before the peak changes
     divide(*this, factor);
     if (!softening.is_active())
@@ -257,13 +286,15 @@ namespace scree
 
   namespace
   {
-    /// The law without softening is another one: its yield surfaces are constant.
+    /// The law of one strength is another one: its yield surfaces are constant.
     template <int dim>
     std::unique_ptr<Material<dim>> make_mohr_coulomb(const LawEntries &entries)
     {
       const auto &parameters = static_cast<const MohrCoulombParameters &>(entries);
       if (parameters.softening.is_active())
         return RegisterLaw::make<dim, SofteningMohrCoulomb, MohrCoulombParameters>(parameters);
+      if (parameters.varies())
+        return RegisterLaw::make<dim, VaryingMohrCoulomb, MohrCoulombParameters>(parameters);
       return RegisterLaw::make<dim, MohrCoulomb, MohrCoulombParameters>(parameters);
     }
 
@@ -321,15 +352,16 @@ namespace scree
   }
 
 
-  void MohrCoulomb::initialise(const PrincipalValues &wanted_stress,
-                               PrincipalValues &strain,
-                               PrincipalValues &stress,
-                               double *internal_variables) const
+  void MohrCoulomb::initialise_inside(const MohrCoulombStrength<double> &strength,
+                                      const PrincipalValues &wanted_stress,
+                                      PrincipalValues &strain,
+                                      PrincipalValues &stress,
+                                      double *internal_variables) const
   {
     double scale = 0;
     for (const double value : wanted_stress)
       scale = std::max(scale, std::abs(value));
-    const double outside = yield(wanted_stress, own_strength);
+    const double outside = yield(wanted_stress, strength);
     AssertThrow(outside <= 1e-9 * scale,
                 ExcMessage("Mohr-Coulomb cannot bear the initial stress, which is outside the yield surface by " +
                            std::to_string(outside) +
@@ -338,6 +370,62 @@ namespace scree
                            "degrees, and \"Cohesion\", Pa."));
     elastic.initialise(wanted_stress, strain, stress, nullptr);
     internal_variables[0] = 0;
+  }
+
+
+  namespace
+  {
+    /// What of a law with a strength of each point is the same for all of them: there is no apex.
+    MohrCoulombParameters without_strength(const MohrCoulombParameters &parameters)
+    {
+      MohrCoulombParameters law = parameters;
+      law.friction_angle = law.dilation_angle = 0;
+      law.cohesion                            = 1; // not read
+      return law;
+    }
+  } // namespace
+
+
+  VaryingMohrCoulomb::VaryingMohrCoulomb(const MohrCoulombParameters &parameters)
+      : MohrCoulomb(without_strength(parameters))
+      , scale(1 / parameters.reduction)
+      , dilation_tangent(tangent_of_dilation(parameters))
+  {
+    internal_quantities.insert(internal_quantities.end(), { { "cohesion", "Pa" }, { "friction_tangent", "-" } });
+    const auto tangent_of = [parameters](const double degrees) {
+      MohrCoulombParameters law = parameters;
+      law.friction_angle        = degrees;
+      return degrees >= 0 && degrees <= largest_angle ? tangent_of_angle(law) : std::nan("");
+    };
+    const auto fault_of_cohesion = [cut_off = parameters.tension_cut_off](const double *variables) -> std::string {
+      if (!(variables[cohesion] >= 0))
+        return "Write values from 0 on, in Pa.";
+      if (variables[cohesion] == 0 && variables[tangent] == 0)
+        return "Without friction the soil needs some cohesion to have any strength.";
+      return variables[cohesion] >= cut_off * variables[tangent]
+                 ? ""
+                 : "The tension cut-off of " + number_text(cut_off) + " Pa is beyond c cot(phi). Write a smaller one.";
+    };
+    const auto fault_of_angle = [least    = dilation_tangent,
+                                 dilation = parameters.dilation_angle,
+                                 friction = parameters.inertial_friction](const double *variables) -> std::string {
+      const double tan_phi = variables[tangent];
+      if (!(tan_phi >= least))
+        return "Write angles from the dilation angle, " + number_text(dilation) + ", to 89 degrees.";
+      return friction.grain_diameter == 0 || tan_phi / std::sqrt(1 + tan_phi * tan_phi) + friction.friction_increase < 1
+                 ? ""
+                 : "With \"Grain diameter\" grains in rapid shear would bear tension. Write smaller angles.";
+    };
+    place_variables = {
+      { "Cohesion", "Pa", parameters.cohesion, parameters.cohesion_of_place, cohesion, nullptr, fault_of_cohesion },
+      { "Friction angle",
+        "degrees",
+        parameters.friction_angle,
+        parameters.friction_angle_of_place,
+        tangent,
+        tangent_of,
+        fault_of_angle }
+    };
   }
 
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <scree/input/case_entries.h>
 #include <scree/input/input_error.h>
 #include <scree/materials/laws/tresca.h>
-
-#include <sstream>
 
 using namespace dealii;
 
@@ -21,16 +20,6 @@ namespace scree
       law.tension_cut_off                         = parameters.tension_cut_off;
       return law;
     }
-
-
-    /// A text that reads as the number.
-    std::string text_of(const double value)
-    {
-      std::ostringstream text;
-      text.precision(17);
-      text << value;
-      return text.str();
-    }
   } // namespace
 
 
@@ -41,18 +30,13 @@ namespace scree
                       poisson_ratio,
                       "Poisson's ratio; of clay without drainage, nearly 0.5.",
                       Patterns::Double(-1, 0.5));
-    prm.add_parameter(
+    add_place_entry(
+        prm,
         "Undrained strength",
         strength,
-        "Pa; undrained shear strength s_u, half of the largest difference of principal stresses, at slow "
-        "shear before any softening: an expression of x, y (z) of the place at the start, such as 10e3 or "
-        "10e3 + 2e3*(5 - y).");
-    prm.add_parameter(
-        "Strength gradient",
-        strength_gradient,
-        "Pa/m; added to \"Undrained strength\" for each metre of soil above the place at the start, along "
-        "the last axis. 0 for soil of an inflow.",
-        Patterns::Double(0));
+        strength_of_place,
+        "Pa; undrained shear strength s_u, half of the largest difference of principal stresses, at slow shear before "
+        "any softening.");
     prm.add_parameter("Tension cut-off", tension_cut_off, cut_off_text, Patterns::Double(0));
     prm.add_parameter("Sensitivity",
                       sensitivity,
@@ -87,8 +71,6 @@ namespace scree
   void TrescaParameters::check(const std::string &subsection) const
   {
     LinearElasticParameters::check(subsection);
-    require_entry(
-        !strength.empty(), { subsection, "Undrained strength", strength }, "write a strength in Pa, such as 10e3.");
     const TrescaParameters defaults;
     const bool softens = sensitivity > 1;
     require_entry(softens || remoulding_strain == 0,
@@ -158,7 +140,7 @@ namespace scree
     TrescaParameters tresca(const HerschelBulkleyParameters &mud)
     {
       TrescaParameters law = mud;
-      law.strength         = text_of(mud.yield_stress);
+      law.strength         = mud.yield_stress;
       return law;
     }
   } // namespace
@@ -180,15 +162,22 @@ namespace scree
     internal_quantities.insert(
         internal_quantities.end(),
         { { "softening_strain", "-" }, { "nonlocal_softening_strain", "-" }, { "undrained_strength", "Pa" } });
-    nonlocal_variable         = { parameters.nonlocal_length, own_kappa, acting_kappa };
-    place_variable.entry      = parameters.strength_entry;
-    place_variable.expression = parameters.strength;
-    place_variable.gradient   = parameters.strength_gradient;
-    place_variable.number     = of_place;
-    if (parameters.sensitivity > 1)
-      place_variable.largest = shear_modulus * parameters.remoulding_strain / (3 * (1 - 1 / parameters.sensitivity));
-    place_variable.remedy = "strength falls faster with strain than elastic stress can. Write a larger \"Remoulding "
-                            "strain\" or \"Young's modulus\".";
+    nonlocal_variable    = { parameters.nonlocal_length, own_kappa, acting_kappa };
+    const double largest = parameters.sensitivity > 1
+                               ? shear_modulus * parameters.remoulding_strain / (3 * (1 - 1 / parameters.sensitivity))
+                               : std::numeric_limits<double>::infinity();
+    const auto fault     = [largest](const double *variables) -> std::string {
+      if (!(variables[of_place] > 0))
+        return "Write values that are positive in the whole body.";
+      return variables[of_place] <= largest
+                     ? ""
+                     : "Beyond " + number_text(largest) +
+                       ", strength falls faster with strain than elastic stress can. Write a "
+                           "larger \"Remoulding strain\" or \"Young's modulus\".";
+    };
+    place_variables = {
+      { parameters.strength_entry, "Pa", parameters.strength, parameters.strength_of_place, of_place, nullptr, fault }
+    };
   }
 
 

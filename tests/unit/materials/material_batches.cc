@@ -262,6 +262,19 @@ void test_falling_strength(const unsigned int n, RandomNumbers &random)
   test<dim>(
       SofteningMohrCoulomb(soil), { "phi 35 to 25", 1e-5, 0.02, 1e2, 1e4, 1, 1, 0.1, has_softened }, n, 1e-8, random);
 
+  MohrCoulombParameters place;
+  place.cohesion_of_place     = "1e3";
+  place.dilation_angle        = 10;
+  const auto has_own_strength = [](double *internal, RandomNumbers &numbers) {
+    internal[1] = std::max(0., numbers.uniform(-5e3, 2e4));
+    internal[2] = numbers.uniform(0.2, 0.8);
+  };
+  test<dim>(VaryingMohrCoulomb(place),
+            { "c and phi of the place", 1e-5, 0.02, 1e2, 1e4, 0.3, 1, 0.1, has_own_strength },
+            n,
+            1e-8,
+            random);
+
   const auto has_strength = [](double *internal, RandomNumbers &numbers) {
     internal[2] = numbers.uniform(0, 0.5);
     internal[3] = numbers.uniform(1e4, 3e4);
@@ -273,7 +286,7 @@ void test_falling_strength(const unsigned int n, RandomNumbers &random)
   test<dim>(
       Tresca(clay), { "clay with cut-off", 1e-5, 0.02, 1e2, 1e4, 0.5, 1, 0.1, has_strength, false }, n, 1e-8, random);
   HerschelBulkleyParameters mud;
-  mud.strength    = "6e3";
+  mud.strength    = 6e3;
   mud.consistency = 2e3;
   mud.index       = 0.5;
   test<dim>(Tresca(mud), { "mud", 1e-5, 0.02, 1e2, 1e4, 0.5, 1, 0.1, has_strength, false }, n, 1e-8, random);

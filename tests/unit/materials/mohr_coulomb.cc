@@ -7,6 +7,7 @@
 
 #include <scree/materials/laws/tresca.h>
 
+#include <fstream>
 #include <numeric>
 
 namespace test_mohr_coulomb
@@ -21,6 +22,82 @@ double dilation_error(const PrincipalValues &trial, const PrincipalValues &strai
       size += std::abs(trial[k] - strain[k]);
     }
   return std::abs(volume - sine * size);
+}
+
+
+/// A point with these variables returns as soil of this strength, over a factor, everywhere.
+void test_varying(const double cut_off, RandomNumbers &random)
+{
+  for (unsigned int i = 0; i < 1000; ++i)
+    {
+      MohrCoulombParameters soil;
+      soil.dilation_angle           = 10;
+      soil.tension_cut_off          = cut_off;
+      MohrCoulombParameters varying = soil;
+      varying.cohesion_of_place     = "1e3 + 100*depth";
+      soil.cohesion                 = random.uniform(2 * cut_off, 1e4);
+      soil.friction_angle           = random.uniform(12, 40);
+      PrincipalValues strain;
+      for (double &component : strain)
+        component = random.uniform(-0.02, 0.01);
+      const double factor   = random.uniform(0.5, 2);
+      double of_place[3]    = { 0, soil.cohesion, std::tan(soil.friction_angle * numbers::PI / 180) };
+      double of_constant[1] = {};
+      varying.divide_strength(factor);
+      soil.divide_strength(factor);
+      PrincipalValues strain_of_place = strain, stress, stress_of_place;
+      UpdateReport report;
+      return_point(MohrCoulomb(soil), strain, of_constant, 1, stress, report);
+      return_point(VaryingMohrCoulomb(varying), strain_of_place, of_place, 1, stress_of_place, report);
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          expect(stress_of_place[k], stress[k], 1e-6, "stress of a point with its own strength");
+          expect(strain_of_place[k], strain[k], 1e-14, "strain of a point with its own strength");
+        }
+      expect(of_place[0], of_constant[0], 1e-14, "plastic shear strain of a point with its own strength");
+    }
+}
+
+
+/// Depths, tables and rasters; what the law cannot follow is refused with the entry.
+void test_places()
+{
+  MohrCoulombParameters soil;
+  soil.cohesion_of_place       = "1e3 + 100*depth + 10*x";
+  soil.friction_angle_of_place = "places.csv";
+  soil.dilation_angle          = 5;
+  std::ofstream("places.csv") << "x, y, phi\n100, 0, 20\n101, 0, 30\n101, 1, 4\n";
+  const PlaceVariables<2> values(VaryingMohrCoulomb(soil).place_variables, "Soil/Mohr-Coulomb", Point<2>(100., 0.));
+  require(values.has_depth(), "depth is not found");
+  double variables[3] = {};
+  values.set(Point<2>(0.6, 0.2), 3., variables);
+  expect(variables[1], 1306, 1e-9, "cohesion of a place");
+  expect(variables[2], std::tan(numbers::PI / 6), 1e-12, "tan(phi) of the nearest place");
+  std::string message;
+  try
+    {
+      values.set(Point<2>(1., 0.9), 3., variables);
+    }
+  catch (const ValueError &error)
+    {
+      message = error.what();
+    }
+  require(message.find("\"Friction angle\" = places.csv: the value at 1, 0.9 m is 4. ") != std::string::npos, message);
+
+  std::ofstream("places.asc") << "ncols 2\nnrows 2\nxllcorner 99\nyllcorner 0\ncellsize 2\nNODATA_value -9999\n"
+                                 "1e3 2e3\n3e3 -9999\n";
+  const PlaceField<3> raster("entry", "places.asc", "Cohesion (Pa)", "", Point<2>(100., 0.));
+  expect(raster.value(Point<3>(1., 3., 7.), 0.), 1500, 1e-9, "value between two cells of a raster");
+  message = "";
+  try
+    {
+      raster.value(Point<3>(2., 1., 7.), 0.);
+    }
+  catch (const ValueError &error)
+    {
+      message = error.what();
+    }
+  require(message.find("entry = places.asc: there is no value at 2, 1, 7 m.") == 0, message);
 }
 
 
@@ -302,6 +379,9 @@ const UnitTest registered("mohr_coulomb", [] {
   test_openings(0);
   test_openings(2000);
   test_strength();
+  test_varying(0, random);
+  test_varying(500, random);
+  test_places();
 
   MohrCoulombParameters falling = softening_clay();
   test_softening("phi 0, c 20 to 5 kPa", falling, random);

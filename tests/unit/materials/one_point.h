@@ -33,7 +33,7 @@ inline MohrCoulombParameters softening_clay()
 inline TrescaParameters sensitive_clay()
 {
   TrescaParameters parameters;
-  parameters.strength          = "20e3";
+  parameters.strength          = 20e3;
   parameters.sensitivity       = 5;
   parameters.remoulding_strain = 0.15;
   return parameters;

@@ -19,7 +19,7 @@ TrescaParameters fast_clay()
 TrescaParameters mud(const double consistency, const double index)
 {
   HerschelBulkleyParameters parameters;
-  parameters.strength    = "6e3";
+  parameters.strength    = 6e3;
   parameters.consistency = consistency;
   parameters.index       = index;
   return parameters;
@@ -82,7 +82,7 @@ shear(const TrescaParameters &parameters, const double gamma, const unsigned int
 {
   const Tresca law(parameters);
   PrincipalValues strain{}, stress;
-  double internal[4]    = { 0, 0, 0, std::stod(parameters.strength) };
+  double internal[4]    = { 0, 0, 0, parameters.strength };
   const double pressure = 1e6; // the law has no friction
   UpdateReport report;
   std::vector<double> result;
@@ -118,10 +118,9 @@ void test_rates()
 void test_place()
 {
   TrescaParameters parameters  = sensitive_clay();
-  parameters.strength          = "1e3 + 2e3*(5 - y)";
-  parameters.strength_gradient = 100;
+  parameters.strength_of_place = "1e3 + 2e3*(5 - y) + 100*depth";
   double internal[4]           = {};
-  const PlaceVariableValues<2> values(Tresca(parameters).place_variable, "Soil/Tresca");
+  const PlaceVariables<2> values(Tresca(parameters).place_variables, "Soil/Tresca");
   values.set(Point<2>(1., 2.), 3., internal);
   expect(internal[of_place], 7300, 1e-9, "strength of the place");
   parameters.divide_strength(1.6);

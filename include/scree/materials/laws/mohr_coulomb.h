@@ -147,9 +147,12 @@ namespace scree
   /// Entries of subsection "Mohr-Coulomb"; angles in degrees.
   struct MohrCoulombParameters : LinearElasticParameters
   {
-    double friction_angle  = 30;                  ///< phi, degrees
-    double dilation_angle  = 0;                   ///< psi, degrees
-    double cohesion        = 0;                   ///< c, Pa
+    double friction_angle = 30;                   ///< phi, degrees, unless there is
+    std::string friction_angle_of_place;          ///< phi of a place at the start, see PlaceVariable
+    double dilation_angle = 0;                    ///< psi, degrees
+    double cohesion       = 0;                    ///< c, Pa, unless there is
+    std::string cohesion_of_place;                ///< c of a place at the start
+    double reduction       = 1;                   ///< factor that divides what points have from their place
     std::string cut_off    = "auto";              ///< entry "Tension cut-off": a number in Pa, or auto
     double tension_cut_off = 0;                   ///< largest principal stress, Pa; at most c cot(phi)
     std::string angle_kind = "triaxial";          ///< what phi was measured in
@@ -163,6 +166,12 @@ namespace scree
 
     /// Isotropic tension that friction and cohesion allow, c cot(phi), Pa.
     double apex() const;
+
+    /// Whether points have their strength from their place.
+    bool varies() const
+    {
+      return !friction_angle_of_place.empty() || !cohesion_of_place.empty();
+    }
 
     /// The same soil with residual strength from the start.
     MohrCoulombParameters residual() const;
@@ -182,6 +191,7 @@ namespace scree
     }
 
   private:
+    void check_varying(const std::string &subsection) const;
     void check_softening(const std::string &subsection) const;
   };
 
@@ -506,7 +516,10 @@ namespace scree
     void initialise(const PrincipalValues &wanted_stress,
                     PrincipalValues &strain,
                     PrincipalValues &stress,
-                    double *internal_variables) const;
+                    double *internal_variables) const
+    {
+      initialise_inside(own_strength, wanted_stress, strain, stress, internal_variables);
+    }
 
     /// Largest of all yield functions, Pa; negative inside.
     /// @param strength of all points, or of each
@@ -604,6 +617,48 @@ namespace scree
         internal_variables[i] += increments[i > 0];
     }
 
+    /// The response with a strength of each point; see return_to().
+    /// @param least_limit 2 c cos(phi) of grains without cohesion, Pa
+    template <unsigned int n_variables, typename Number>
+    DEAL_II_ALWAYS_INLINE inline LawResponse<Number> respond_with(const MohrCoulombStrength<Number> &strength,
+                                                                  const double least_limit,
+                                                                  const LawStep<Number> &step,
+                                                                  PrincipalNumbers<Number> &strain,
+                                                                  Number *internal_variables,
+                                                                  PrincipalNumbers<Number> &stress) const
+    {
+      stress = stress_of(strain);
+      LawResponse<Number> response{};
+      response.bulk_modulus     = simd::broadcast<Number>(bulk);
+      response.is_plastic       = yield(stress, strength) > 0.;
+      const auto plastic_return = [&]() __attribute__((noinline))
+      {
+        const MohrCoulombSurfaces<Number> surfaces(strength, largest_principal_stress, bulk, shear_modulus, true);
+        return_to<n_variables, Number>(
+            surfaces, strength.limit <= least_limit, step, strain, internal_variables, stress, response);
+      };
+      if (simd::any(response.is_plastic))
+        plastic_return();
+      return response;
+    }
+
+    /// The strength with these tan(phi), tan(psi) and c, Pa.
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE inline static MohrCoulombStrength<Number>
+    strength_of_tangents(const Number &tan_phi, const Number &tan_psi, const Number &cohesion)
+    {
+      const Number cos_phi = 1. / simd::sqrt<Number>(1. + tan_phi * tan_phi);
+      const Number cos_psi = 1. / simd::sqrt<Number>(1. + tan_psi * tan_psi);
+      return { tan_phi * cos_phi, tan_psi * cos_psi, 2. * cohesion * cos_phi };
+    }
+
+    /// See Material::initialise(). Throws if the stress is outside the yield surface of this strength.
+    void initialise_inside(const MohrCoulombStrength<double> &strength,
+                           const PrincipalValues &wanted_stress,
+                           PrincipalValues &strain,
+                           PrincipalValues &stress,
+                           double *internal_variables) const;
+
     const LinearElastic elastic;           ///< the law without plastic strain
     const double bulk;                     ///< modulus, Pa
     const double vertex;                   ///< tau of the vertex, Pa
@@ -613,6 +668,55 @@ namespace scree
     const bool cohesionless; // whether the vertex of friction and cohesion is at 0
     const InertialFriction inertial_friction;
     const MohrCoulombSurfaces<double> surfaces;
+  };
+
+
+  /// MohrCoulomb whose cohesion and tan(phi) are those of the place of a point at the start, over a factor; psi is at
+  /// most phi. The apex of each point is beyond the cut-off.
+  class VaryingMohrCoulomb : public MohrCoulomb
+  {
+  public:
+    /// Plastic shear strain sqrt(2/3 e:e), c, Pa, and tan(phi).
+    static constexpr unsigned int n_internal_variables = 3;
+
+    /// With cohesion and friction angle of each point.
+    explicit VaryingMohrCoulomb(const MohrCoulombParameters &parameters);
+
+    /// See ConstitutiveLaw.
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE inline LawResponse<Number> respond(const LawStep<Number> &step,
+                                                             PrincipalNumbers<Number> &strain,
+                                                             Number *internal_variables,
+                                                             PrincipalNumbers<Number> &stress) const
+    {
+      return respond_with<1, Number>(
+          strength<Number>(internal_variables), 0., step, strain, internal_variables, stress);
+    }
+
+    /// See Material::initialise(). Throws if the stress is outside the yield surface of the point.
+    void initialise(const PrincipalValues &wanted_stress,
+                    PrincipalValues &strain,
+                    PrincipalValues &stress,
+                    double *internal_variables) const
+    {
+      initialise_inside(strength(internal_variables), wanted_stress, strain, stress, internal_variables);
+    }
+
+    /// The strength of these variables.
+    template <typename Number>
+    DEAL_II_ALWAYS_INLINE inline MohrCoulombStrength<Number> strength(const Number *internal_variables) const
+    {
+      const Number tan_phi = scale * internal_variables[tangent];
+      return strength_of_tangents<Number>(tan_phi,
+                                          simd::min<Number>(tan_phi, simd::broadcast<Number>(dilation_tangent)),
+                                          scale * internal_variables[cohesion]);
+    }
+
+  private:
+    static constexpr unsigned int cohesion = 1, tangent = 2; // internal variables
+
+    const double scale;            // of the strength, 1 unless reduced
+    const double dilation_tangent; // tan(psi)
   };
 
 
@@ -639,20 +743,8 @@ namespace scree
                                                              Number *internal_variables,
                                                              PrincipalNumbers<Number> &stress) const
     {
-      stress                                         = stress_of(strain);
-      const MohrCoulombStrength<Number> of_last_step = strength<Number>(internal_variables[acting_kappa]);
-      LawResponse<Number> response{};
-      response.bulk_modulus     = simd::broadcast<Number>(bulk);
-      response.is_plastic       = yield(stress, of_last_step) > 0.;
-      const auto plastic_return = [&]() __attribute__((noinline))
-      {
-        const MohrCoulombSurfaces<Number> surfaces(of_last_step, largest_principal_stress, bulk, shear_modulus, true);
-        return_to<3, Number>(
-            surfaces, of_last_step.limit <= least_limit, step, strain, internal_variables, stress, response);
-      };
-      if (simd::any(response.is_plastic))
-        plastic_return();
-      return response;
+      return respond_with<3, Number>(
+          strength<Number>(internal_variables[acting_kappa]), least_limit, step, strain, internal_variables, stress);
     }
 
     /// See Material::initialise(). Throws if the stress is outside the yield surface of the peak.
@@ -672,10 +764,7 @@ namespace scree
       const Number positive  = simd::max<Number>(kappa, simd::broadcast<Number>(0.));
       const Number remaining = simd::exp<Number>(positive * (-1. / softening_strain));
       const auto at          = [&](const Falling &value) { return value.residual + value.fall * remaining; };
-      const Number tan_phi = at(tangent), tan_psi = at(dilation_tangent);
-      const Number cos_phi = 1. / simd::sqrt<Number>(1. + tan_phi * tan_phi);
-      const Number cos_psi = 1. / simd::sqrt<Number>(1. + tan_psi * tan_psi);
-      return { tan_phi * cos_phi, tan_psi * cos_psi, 2. * at(cohesion) * cos_phi };
+      return strength_of_tangents<Number>(at(tangent), at(dilation_tangent), at(cohesion));
     }
 
   private:

@@ -10,8 +10,8 @@ namespace scree
   /// Entries of subsection "Tresca".
   struct TrescaParameters : LinearElasticParameters
   {
-    std::string strength       = "10e3";               ///< s_u of a place at the start, Pa
-    double strength_gradient   = 0;                    ///< Pa/m below the surface
+    double strength = 10e3;                            ///< s_u, Pa, unless there is
+    std::string strength_of_place;                     ///< s_u of a place at the start, see PlaceVariable
     double tension_cut_off     = 0;                    ///< largest principal stress, Pa
     double sensitivity         = 1;                    ///< S_t, -
     double remoulding_strain   = 0;                    ///< kappa_95, -
