@@ -46,8 +46,8 @@ namespace scree
         entry, of_place.empty() ? number_text(number) : of_place, Patterns::Anything(), documentation + place_text);
     prm.add_action(entry, [&number, &of_place](const std::string &value) {
       const double read = number_of(value);
-      of_place          = !std::isnan(read) ? "" : value.empty() ? " " : value; // which does not read
-      number            = std::isnan(read) ? number : read;
+      of_place          = std::isfinite(read) ? "" : value.empty() ? " " : value; // which does not read
+      number            = std::isfinite(read) ? read : number;
     });
   }
 

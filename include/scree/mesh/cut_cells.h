@@ -126,8 +126,7 @@ namespace scree
     /// How fast the ground is at a segment, m/s.
     dealii::Tensor<1, dim> velocity(const CutFacet<dim> &segment) const
     {
-      const dealii::Tensor<1, dim> *of_part = ground.parts()[segment.part].velocity;
-      return of_part == nullptr ? dealii::Tensor<1, dim>() : *of_part;
+      return ground.velocity(segment.part);
     }
 
     static constexpr double smallest   = 1e-9;                                  ///< lower bound of open_fraction()

@@ -190,6 +190,13 @@ namespace scree
     /// The part that is nearest to a place (from 0 to 1) in a cell that is near one, or deepest around it.
     unsigned int nearest_part(const unsigned int cell, const dealii::Point<dim> &place) const;
 
+    /// How fast a part moves, m/s.
+    dealii::Tensor<1, dim> velocity(const unsigned int part) const
+    {
+      const dealii::Tensor<1, dim> *of_part = all_parts[part].velocity;
+      return of_part == nullptr ? dealii::Tensor<1, dim>() : *of_part;
+    }
+
     /// As DiscreteLevelSet, of the nearest part.
     SurfaceView<dim> view(const unsigned int cell, const dealii::Point<dim> &place) const
     {

@@ -131,14 +131,6 @@ namespace scree
 
 
   template <int dim>
-  Tensor<1, dim> CutCellContact<dim>::velocity_of(const unsigned int part) const
-  {
-    const Tensor<1, dim> *velocity = ground->parts()[part].velocity;
-    return velocity == nullptr ? Tensor<1, dim>() : *velocity;
-  }
-
-
-  template <int dim>
   void CutCellContact<dim>::book(const unsigned int part,
                                  const Point<dim> &place,
                                  const Tensor<1, dim> &impulse,
@@ -147,7 +139,7 @@ namespace scree
   {
     if (ObstacleBalance<dim> *obstacle = balance_of(part, balance))
       {
-        const double work = impulse * velocity_of(part);
+        const double work = impulse * ground->velocity(part);
         obstacle->impulse += impulse;
         obstacle->add_moment(place - surfaces[part].obstacle->pivot, impulse);
         obstacle->work += work;
@@ -198,7 +190,7 @@ namespace scree
                                                           const Tensor<1, dim> &velocity,
                                                           const double time_step) const
   {
-    const Tensor<1, dim> of_ground = velocity_of(cut_cells->segments()[row.segment].part);
+    const Tensor<1, dim> of_ground = ground->velocity(cut_cells->segments()[row.segment].part);
     const double allowed = gaps.approach_of_material(row.segment, (velocity - of_ground) * row.normal, time_step);
     row.is_unilateral    = row.is_unilateral || allowed > 0.; // what has not arrived does not stick yet
     return of_ground + allowed * row.normal;
@@ -297,7 +289,7 @@ namespace scree
                                                     const double viscosity) const
   {
     const CutFacet<dim> &segment  = cut_cells->segments()[s];
-    const Tensor<1, dim> velocity = mean_velocity(segment, motion) - ground_share * velocity_of(segment.part);
+    const Tensor<1, dim> velocity = mean_velocity(segment, motion) - ground_share * ground->velocity(segment.part);
     return -viscosity * segment.area / (closures::slip_length * grid.cell_size()) * velocity;
   }
 
@@ -451,7 +443,7 @@ namespace scree
           const Tensor<1, dim> impulse = -time_step * mean * segment.area * segment.normal;
           obstacle->pressure_impulse += impulse;
           obstacle->add_moment(cut_cells->segments()[s].middle - surface_of(s).obstacle->pivot, impulse);
-          obstacle->work += impulse * velocity_of(segment.part);
+          obstacle->work += impulse * ground->velocity(segment.part);
         });
   }
 
@@ -471,7 +463,7 @@ namespace scree
     balance.obstacles.resize(n_obstacles);
     const auto stop = [&](const auto &point, const unsigned int part, const Tensor<1, dim> &normal) {
       double *own                   = point.properties + moving.velocity;
-      const Tensor<1, dim> velocity = vector_of<dim>(own), relative = velocity - velocity_of(part);
+      const Tensor<1, dim> velocity = vector_of<dim>(own), relative = velocity - ground->velocity(part);
       const double into = -(relative * normal), mass = point.properties[moving.mass];
       if (into <= 0.)
         return;

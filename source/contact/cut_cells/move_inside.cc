@@ -116,7 +116,7 @@ namespace scree
                 Point<dim> &location     = cell.location_of(indices[l]);
                 const auto place_in_cell = [&] { return Point<dim>((location - lower) / width); };
                 const unsigned int part  = ground.nearest_part(cell.cell, place_in_cell());
-                SurfaceView<dim> view    = ground.view(cell.cell, place_in_cell());
+                SurfaceView<dim> view    = ground.parts()[part].samples->view(cell.cell, place_in_cell());
                 act({ cell.cell, cell.properties_of(indices[l]), location, cell.reference_location_of(indices[l]) },
                     part,
                     view.normal);

@@ -417,14 +417,14 @@ namespace scree
                  : "With \"Grain diameter\" grains in rapid shear would bear tension. Write smaller angles.";
     };
     place_variables = {
-      { "Cohesion", "Pa", parameters.cohesion, parameters.cohesion_of_place, cohesion, nullptr, fault_of_cohesion },
       { "Friction angle",
         "degrees",
         parameters.friction_angle,
         parameters.friction_angle_of_place,
         tangent,
         tangent_of,
-        fault_of_angle }
+        fault_of_angle },
+      { "Cohesion", "Pa", parameters.cohesion, parameters.cohesion_of_place, cohesion, nullptr, fault_of_cohesion }
     };
   }
 

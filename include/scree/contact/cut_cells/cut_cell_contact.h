@@ -207,9 +207,6 @@ namespace scree
     /// What a part of the ground did, if it is an obstacle; else null.
     ObstacleBalance<dim> *balance_of(const unsigned int part, Budget<dim> &balance) const;
 
-    /// How fast a part is, m/s.
-    dealii::Tensor<1, dim> velocity_of(const unsigned int part) const;
-
     /// Books an impulse of a part on soil or water, N s, at a place, and the energy that these have lost by it, J.
     void book(const unsigned int part,
               const dealii::Point<dim> &place,
