@@ -26,7 +26,7 @@ class Topic(NamedTuple):
 
 # Pages in the order of the list.
 TOPICS = {
-    "run_out": Topic("Run-out of dry soil", ("run_out_limits", "cylinders", "run_out", "dry_slope", "transfer_rate", "granular_dam_break")),
+    "run_out": Topic("Run-out of dry soil", ("run_out_limits", "cylinders", "run_out", "resolution", "dry_slope", "transfer_rate", "granular_dam_break")),
     "safety": Topic("Factor of safety", ("strength_reduction",)),
     "saturated_slopes": Topic("Saturated slopes", ("saturated_run_out_limits", "saturated_slope", "submerged_slope")),
     "drained_or_coupled": Topic("Drained, coupled or undrained", ("regimes", "point_sets", "single_point")),
