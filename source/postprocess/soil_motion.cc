@@ -190,8 +190,10 @@ namespace scree
                        short_text(thickness_then) + " cells",
                        "at least " + short_text(least_cells),
                        thickness_then < least_cells,
-                       "for thicknesses, use cells of at most " +
-                           short_text(thickness_then * grid.cell_size() / least_cells) + " m; reach and area hold",
+                       "for thickness and stress, use cells of at most " +
+                           short_text(thickness_then * grid.cell_size() / least_cells) +
+                           " m; the toe of dry soil is known to " + short_text(toe_cells) + " cells, " +
+                           short_text(toe_cells * grid.cell_size()) + " m",
                        Finding::resolution });
     if (last.failed_mass > 0.)
       list.push_back({ "speed of failed soil at the end",

@@ -43,6 +43,8 @@ namespace scree
   public:
     /// Cells over the thickness of moving soil.
     static constexpr double least_cells = 3.;
+    /// By which the toe of dry soil deviates at most (study `resolution`).
+    static constexpr double toe_cells = 5.;
 
     /// Keeps references.
     /// @param gravity m/s^2

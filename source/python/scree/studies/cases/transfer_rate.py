@@ -35,24 +35,16 @@ def water(h):
     return {"Time step/Maximum time step": 0.04 * h, "Water/Volume correction rate": 0.5 * math.sqrt(GRAVITY / h)}
 
 
-def three_points(h):
-    return {"Soil/Points per cell": 3}
-
-
-def wide_box(h):
-    return {"Mesh/Upper corner": f"10, {18 / 7}"}
-
-
 def sloshing(h):
     return {"Mesh/Upper corner": "1, 1.3", **water(h), "Water/Region": "y < 1 + 0.05*cos(pi*x)",
             "Output/Statistics interval": PERIOD / 40}
 
 
 SCENES = [
-    *scene("dry slope", "slopes/slope_dense", 2, [0.1, 0.05], three_points),
-    *scene("dry column", "columns/column_dense", 1.5, [0.1, 0.05], three_points),
-    *scene("loose saturated slope", "slopes/slope_saturated_loose", 3, [1 / 7, 1 / 14], wide_box),
-    *scene("dense saturated slope", "slopes/slope_saturated_dense", 2, [1 / 7, 1 / 14], wide_box),
+    *scene("dry slope", "slopes/slope_dense", 2, [0.1, 0.05], lambda h: {"Soil/Points per cell": 3}),
+    *scene("dry column", "columns/column_dense", 1.5, [0.1, 0.05], lambda h: {"Soil/Points per cell": 3}),
+    *scene("loose saturated slope", "slopes/slope_saturated_loose", 3, [1 / 7, 1 / 14], lambda h: {"Mesh/Upper corner": f"10, {18 / 7}"}),
+    *scene("dense saturated slope", "slopes/slope_saturated_dense", 2, [1 / 7, 1 / 14], lambda h: {"Mesh/Upper corner": f"10, {18 / 7}"}),
     *scene("dam break", "water/dam_break", 0.68, [0.1, 0.05], water),
     *scene("sloshing", "water/dam_break", 5 * PERIOD, [0.1, 0.05], sloshing),
     *column(COLUMN, 1e6), *column(STIFF, 1e7), *column(LARGE, 1e6, 100)]
