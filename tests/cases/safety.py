@@ -89,6 +89,12 @@ def clay_graded_slope():
     clay("graded_slope", 5.653 * 4.5e3 / (2000 * 9.81), 0.05, **{"Mesh/Cell size": 0.5, "Safety/Tolerance": 0.01})
 
 
+def places():
+    """Strengths that are expressions of the place have the factor of the same numbers."""
+    rests, fails = bracket(trials(run("places", slope(**{"Soil/Mohr-Coulomb/Cohesion": "9810 + 0*depth", "Soil/Mohr-Coulomb/Friction angle": "20 + 0*x"}), "--safety")))
+    check(abs(0.5 * (rests + fails) / 1.4 - 1) < 0.03, "the factor deviates from 1.4 by 3 % or more")
+
+
 def clay_random_field():
     """With a table of one value 1.47 by Griffiths & Fenton (2004); a random field of this mean is weaker."""
     field = HERE.parents[1] / "prm/clay/random_field.prm"

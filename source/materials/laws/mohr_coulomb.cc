@@ -210,6 +210,10 @@ namespace scree
                   { subsection, entry, text },
                   "a strength that differs from place to place cannot soften. Write a number, or remove \"Softening "
                   "strain\".");
+    require_entry(inertial_friction.grain_diameter == 0,
+                  { subsection, "Grain diameter", inertial_friction.grain_diameter },
+                  "a strength that differs from place to place cannot grow with the rate. Write 0, or numbers for the "
+                  "strength.");
   }
 
 
@@ -268,7 +272,7 @@ namespace scree
     if (varies())
       {
         reduction *= factor;
-        tension_cut_off /= factor;
+        tension_cut_off /= std::max(factor, 1.); // c cot(phi) of the points stays
         return true;
       }
     MohrCoulombParameters last = residual(); // before the peak changes
@@ -407,14 +411,10 @@ namespace scree
                  : "The tension cut-off of " + number_text(cut_off) + " Pa is beyond c cot(phi). Write a smaller one.";
     };
     const auto fault_of_angle = [least    = dilation_tangent,
-                                 dilation = parameters.dilation_angle,
-                                 friction = parameters.inertial_friction](const double *variables) -> std::string {
-      const double tan_phi = variables[tangent];
-      if (!(tan_phi >= least))
-        return "Write angles from the dilation angle, " + number_text(dilation) + ", to 89 degrees.";
-      return friction.grain_diameter == 0 || tan_phi / std::sqrt(1 + tan_phi * tan_phi) + friction.friction_increase < 1
+                                 dilation = parameters.dilation_angle](const double *variables) -> std::string {
+      return variables[tangent] >= least
                  ? ""
-                 : "With \"Grain diameter\" grains in rapid shear would bear tension. Write smaller angles.";
+                 : "Write angles from the dilation angle, " + number_text(dilation) + ", to 89 degrees.";
     };
     place_variables = {
       { "Friction angle",

@@ -40,7 +40,7 @@ void test_varying(const double cut_off, RandomNumbers &random)
       PrincipalValues strain;
       for (double &component : strain)
         component = random.uniform(-0.02, 0.01);
-      const double factor   = random.uniform(0.5, 2);
+      const double factor   = random.uniform(cut_off > 0 ? 1 : 0.5, 2);
       double of_place[3]    = { 0, soil.cohesion, std::tan(soil.friction_angle * numbers::PI / 180) };
       double of_constant[1] = {};
       varying.divide_strength(factor);
