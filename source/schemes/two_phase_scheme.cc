@@ -195,7 +195,7 @@ namespace scree
   {
     const double largest_speed = report.speeds.points;
     for (auto &one : water)
-      keep_off_walls(grid, faces_closed_to_water, one, report.balance);
+      keep_off_walls(grid, faces_closed_to_water, forces.mass_scaling(), one, report.balance);
     for (auto &body : soil.all_bodies())
       if (!body.is_rigid)
         report.soil += contact.project_to_boundary({ body.points, body.layout, body.has_affine_energy, Phase::soil },

@@ -22,6 +22,7 @@ namespace scree
   template <int dim>
   void keep_off_walls(const BackgroundGrid<dim> &grid,
                       const std::uint8_t closed_faces,
+                      const double mass_scaling,
                       WaterPhase<dim> &water,
                       Budget<dim> &balance)
   {
@@ -46,7 +47,7 @@ namespace scree
               double &velocity  = point.properties[water.layout.velocity + a];
               if (inward * velocity >= 0.)
                 continue;
-              const double impulse = -point.properties[water.layout.mass] * velocity;
+              const double impulse = -mass_scaling * point.properties[water.layout.mass] * velocity;
               balance.wall_impulse[a] += impulse;
               balance.water_walls.of_face[f][a] += impulse;
               balance.wall_dissipation -= 0.5 * impulse * velocity;
@@ -131,8 +132,8 @@ namespace scree
       }
   }
 
-  template void keep_off_walls(const BackgroundGrid<2> &, const std::uint8_t, WaterPhase<2> &, Budget<2> &);
-  template void keep_off_walls(const BackgroundGrid<3> &, const std::uint8_t, WaterPhase<3> &, Budget<3> &);
+  template decltype(keep_off_walls<2>) keep_off_walls<2>;
+  template decltype(keep_off_walls<3>) keep_off_walls<3>;
   template void
   move_out_of_ground(const BackgroundGrid<2> &, const std::uint8_t, const Tensor<1, 2> &, double, Point<2> &);
   template void

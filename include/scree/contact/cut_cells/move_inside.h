@@ -18,9 +18,11 @@ namespace scree
   /// is not stable.
   ///
   /// @param closed_faces bit f: face f, as in BackgroundGrid::node_faces()
+  /// @param mass_scaling of the inertia that the balance counts
   template <int dim>
   void keep_off_walls(const BackgroundGrid<dim> &grid,
                       const std::uint8_t closed_faces,
+                      const double mass_scaling,
                       WaterPhase<dim> &water,
                       Budget<dim> &balance);
 
