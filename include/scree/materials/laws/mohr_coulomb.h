@@ -183,8 +183,8 @@ namespace scree
     /// allows it, in water, else 0. Throws EntryError if the entry is neither auto nor a number from 0 on.
     void complete(const std::string &subsection, const bool in_water) override;
 
-    /// Divides tan(phi), c and the tension cut-off; psi stays, but is at most phi. The cut-off of a strength that differs
-    /// from place to place does not grow.
+    /// Divides tan(phi), c and the tension cut-off; psi stays, but is at most phi. The cut-off of a strength that
+    /// differs from place to place does not grow.
     bool divide_strength(const double factor) override;
     std::optional<double> sine_of_friction() const override
     {
