@@ -58,18 +58,20 @@ namespace scree
         return value;
       };
     else
-      value_at = [places = pack_rtree(read_places<dim>(text, where, quantity, origin)),
-                  name   = where + " = " + text](const Point<dim> &place, const double) {
-        const auto nearest  = places.qbegin(boost::geometry::index::nearest(place, 1));
+      {
+        const auto places   = pack_rtree(read_places<dim>(text, where, quantity, origin));
         const auto box      = places.bounds();
         const double extent = boost::geometry::distance(box.min_corner(), box.max_corner());
-        const double away   = place.distance(nearest->first);
-        if (away > most_extents * extent)
-          throw ValueError(name + ": the nearest place of " + number_text(place) + " m is " + number_text(away) +
-                           " m away, and the places are within " + number_text(extent) +
-                           " m. Look at their coordinates, m on the map, and at \"Local origin\".");
-        return nearest->second;
-      };
+        value_at            = [places, extent, name = where + " = " + text](const Point<dim> &place, const double) {
+          const auto nearest = places.qbegin(boost::geometry::index::nearest(place, 1));
+          const double away  = place.distance(nearest->first);
+          if (away > most_extents * extent)
+            throw ValueError(name + ": the nearest place of " + number_text(place) + " m is " + number_text(away) +
+                             " m away, and the places are within " + number_text(extent) +
+                             " m. Look at their coordinates, m on the map, and at \"Local origin\".");
+          return nearest->second;
+        };
+      }
   }
 
   template class PlaceField<2>;

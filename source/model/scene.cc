@@ -550,8 +550,11 @@ namespace scree
     SoilBody<dim> &body           = body_named(inflow.body, bodies);
     const auto &layout            = body.layout;
     const BodyParameters &entries = *parameters.find_body(body.name);
-    const PlaceVariables<dim> of_place(
-        body.material->place_variables, entries.material.path(body.name), parameters.bed.map_origin);
+    const PlaceVariables<dim> &of_place =
+        places_of_inflows
+            .try_emplace(
+                body.name, body.material->place_variables, entries.material.path(body.name), parameters.bed.map_origin)
+            .first->second;
     double stress[n_symmetric_components<dim>] = {};
     if (entries.initial_state.is_isotropic())
       std::fill_n(stress, 3, -entries.initial_state.pressure);
@@ -767,10 +770,11 @@ namespace scree
       Tensor<1, dim> down;
       down[dim - 1] = -1.;
       Overburden<dim> depth(grid, std::move(layers), down, grid.cell_size() / 4);
+      const bool has_depth = values.has_depth();
       on_all_ranks(grid.communicator(), [&] {
         for_each_point(body.points, [&](const auto &point) {
           values.set(point.location,
-                     values.has_depth() ? depth.weight_above(point.location) : 0.,
+                     has_depth ? depth.weight_above(point.location) : 0.,
                      point.properties + body.layout.internal_variables);
         });
       });

@@ -93,6 +93,24 @@ namespace scree
       return normal;
     }
 
+    /// Calls `look(phase, point, name)` with the points of a set, where name() is that of the point.
+    template <typename Phase, int dim, typename Look>
+    void for_each_named(const Phase &phase, const std::string &set, const PointSet<dim> &points, const Look &look)
+    {
+      const auto &cells = points.cells();
+      for (unsigned int c = 0; c < cells.size(); ++c)
+        {
+          unsigned int p = 0;
+          for_each_point(cells[c], [&](const auto &point) {
+            look(phase, point, [&] {
+              return set + ", point " + std::to_string(points.ids(c)[p]) + " at (" + number_text(point.location) +
+                     ") m";
+            });
+            ++p;
+          });
+        }
+    }
+
     /// Calls `look(point, id)` with the points of a set.
     template <int dim, typename Look>
     void for_each_with_id(const PointSet<dim> &points, const Look &look)
@@ -103,17 +121,6 @@ namespace scree
           auto id        = ids.begin();
           for_each_point(points.cells()[c], [&](const auto &point) { look(point, *id++); });
         }
-    }
-
-    /// Calls `look(phase, point, name)` with the points of a set, where name() is that of the point.
-    template <typename Phase, int dim, typename Look>
-    void for_each_named(const Phase &phase, const std::string &set, const PointSet<dim> &points, const Look &look)
-    {
-      for_each_with_id(points, [&](const auto &point, const auto id) {
-        look(phase, point, [&] {
-          return set + ", point " + std::to_string(id) + " at (" + number_text(point.location) + ") m";
-        });
-      });
     }
 
     /// The same with the bodies that can move.

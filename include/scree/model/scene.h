@@ -94,20 +94,21 @@ namespace scree
     BackgroundGrid<dim> grid;                             ///< mesh and nodes of the velocity
     BoundaryConditions<dim> walls;                        ///< faces of the box acting on the soil
     std::unique_ptr<BoundaryConditions<dim>> water_walls; ///< null in a dry scene
-    std::list<Constraints<dim>> constraints;        ///< of the nodes; for what slides on rigid bodies, others last
-    BodyForces<dim> forcing;                        ///< gravity, body force and motion of the base
-    std::list<SoilBody<dim>> bodies;                ///< bodies of soil, in the order of the case
-    std::list<WaterPhase<dim>> water;               ///< empty in a dry scene; one with points of its own, or one a body
-    std::list<SurfaceLoad<dim>> loads;              ///< surface loads, in the order of the case
-    std::list<Obstacle<dim>> obstacles;             ///< obstacles, in the order of the case
-    std::list<Inflow<dim>> inflows;                 ///< inflows, in the order of the case
-    std::optional<Rain<dim>> rain;                  ///< on the soil; nothing if it does not rain
-    std::unique_ptr<LevelSet<dim>> ground;          ///< null without a bed
-    std::unique_ptr<DiscreteLevelSet<dim>> bed;     ///< the same as the mesh sees it
-    std::unique_ptr<LevelSet<dim>> union_level_set; ///< bed and obstacles as one; null without obstacles
-    std::unique_ptr<RigidBoundary<dim>> rigid_ground; ///< bed and obstacles; null without both
-    std::shared_ptr<const SeepageField<dim>> seepage; ///< steady, before the first step; null without
-    std::unique_ptr<CutCells<dim>> cut_cells;         ///< where these cut the cells; null without both
+    std::list<Constraints<dim>> constraints; ///< of the nodes; for what slides on rigid bodies, others last
+    BodyForces<dim> forcing;                 ///< gravity, body force and motion of the base
+    std::list<SoilBody<dim>> bodies;         ///< bodies of soil, in the order of the case
+    std::list<WaterPhase<dim>> water;        ///< empty in a dry scene; one with points of its own, or one a body
+    std::list<SurfaceLoad<dim>> loads;       ///< surface loads, in the order of the case
+    std::list<Obstacle<dim>> obstacles;      ///< obstacles, in the order of the case
+    std::list<Inflow<dim>> inflows;          ///< inflows, in the order of the case
+    std::map<std::string, PlaceVariables<dim>> places_of_inflows; ///< by body; read when the first points enter
+    std::optional<Rain<dim>> rain;                                ///< on the soil; nothing if it does not rain
+    std::unique_ptr<LevelSet<dim>> ground;                        ///< null without a bed
+    std::unique_ptr<DiscreteLevelSet<dim>> bed;                   ///< the same as the mesh sees it
+    std::unique_ptr<LevelSet<dim>> union_level_set;               ///< bed and obstacles as one; null without obstacles
+    std::unique_ptr<RigidBoundary<dim>> rigid_ground;             ///< bed and obstacles; null without both
+    std::shared_ptr<const SeepageField<dim>> seepage;             ///< steady, before the first step; null without
+    std::unique_ptr<CutCells<dim>> cut_cells;                     ///< where these cut the cells; null without both
 
     /// Whether suction, or water at a drained wall that holds a pressure, does work.
     bool has_pressure_work() const
