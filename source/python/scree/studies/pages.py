@@ -36,7 +36,7 @@ TOPICS = {
     "infiltration": Topic("Infiltration", ("wetting_front",)),
     "waves_and_convergence": Topic("Waves and convergence", ("bar", "manufactured")),
     "soil_models": Topic("Soil models and quality of the stress", ("contours", "low_stress", "shear_bands")),
-    "experiments": Topic("Experiments", ("aluminium_bars", "martin_moyce")),
+    "experiments": Topic("Experiments", ("aluminium_bars", "martin_moyce", "porous_dam_break")),
     "cost": Topic("Cost", ("advice", "scaling", "peers")),
 }
 
