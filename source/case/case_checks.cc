@@ -405,7 +405,6 @@ namespace scree
                                            "Residual friction angle",
                                            "Residual dilation angle",
                                            "Residual cohesion",
-                                           "Yield stress",
                                            "Consistency",
                                            "Flow index" };
 

@@ -91,6 +91,7 @@ namespace scree
   HerschelBulkleyParameters::HerschelBulkleyParameters()
   {
     young_modulus  = 1e6;
+    strength       = 1e3;
     consistency    = 100;
     strength_entry = "Yield stress";
   }
@@ -103,10 +104,11 @@ namespace scree
                       "Pa; Young's modulus below the yield stress. A small one allows long steps.",
                       Patterns::Double(0));
     prm.add_parameter("Poisson's ratio", poisson_ratio, "Poisson's ratio.", Patterns::Double(-1, 0.5));
-    prm.add_parameter("Yield stress",
-                      yield_stress,
-                      "Pa; yield stress tau_y in shear: half of the largest difference of principal stresses.",
-                      Patterns::Double(0));
+    add_place_entry(prm,
+                    "Yield stress",
+                    strength,
+                    strength_of_place,
+                    "Pa; yield stress tau_y in shear: half of the largest difference of principal stresses.");
     prm.add_parameter("Consistency",
                       consistency,
                       "Pa s^n; K of tau = tau_y + K gamma_dot^n with the rate of plastic shear gamma_dot in 1/s. With "
@@ -121,8 +123,6 @@ namespace scree
   void HerschelBulkleyParameters::check(const std::string &subsection) const
   {
     LinearElasticParameters::check(subsection);
-    require_entry(
-        yield_stress > 0, { subsection, "Yield stress", yield_stress }, "a positive stress is needed, in Pa.");
     require_entry(consistency > 0 || index == HerschelBulkleyParameters().index,
                   { subsection, "Flow index", index },
                   "this entry has no effect without \"Consistency\". Write one above 0, or remove the entry.");
@@ -134,22 +134,7 @@ namespace scree
     const RegisterLaw registered_tresca = RegisterLaw::of<Tresca, TrescaParameters>("Tresca", "Tresca");
     const RegisterLaw registered_herschel_bulkley =
         RegisterLaw::of<Tresca, HerschelBulkleyParameters>("Herschel-Bulkley", "Herschel-Bulkley");
-
-
-    /// Mud as clay.
-    TrescaParameters tresca(const HerschelBulkleyParameters &mud)
-    {
-      TrescaParameters law = mud;
-      law.strength         = mud.yield_stress;
-      return law;
-    }
   } // namespace
-
-
-  Tresca::Tresca(const HerschelBulkleyParameters &parameters)
-      : Tresca(tresca(parameters))
-  {
-  }
 
 
   Tresca::Tresca(const TrescaParameters &parameters)

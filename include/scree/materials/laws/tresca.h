@@ -51,8 +51,6 @@ namespace scree
   /// Entries of subsection "Herschel-Bulkley": mud is a TrescaParameters with other entries.
   struct HerschelBulkleyParameters : TrescaParameters
   {
-    double yield_stress = 1e3; ///< tau_y, Pa
-
     /// The values of mud.
     HerschelBulkleyParameters();
 
@@ -162,9 +160,6 @@ namespace scree
 
     /// Clay.
     explicit Tresca(const TrescaParameters &parameters);
-
-    /// Mud.
-    explicit Tresca(const HerschelBulkleyParameters &parameters);
 
     /// See ConstitutiveLaw.
     template <typename Number>
