@@ -35,6 +35,16 @@ runs = 4
 "Mesh/Cell size" = [1, 0.5]
 """
 
+FACTORS = """case = "{case}"
+results = "results/factors"
+sampling = "grid"
+run_out = "factor of safety"
+[set]
+"Mesh/Cell size" = 2
+[parameters]
+"Soil/Tresca/Undrained strength" = [25e3, 50e3]
+"""
+
 
 def of(kind, **numbers):
     return sampling.distribution_of({"distribution": kind, **numbers})
@@ -213,6 +223,20 @@ def test_runs():
     assert "4 runs, 1 to do" in call("--cores", "2")
     assert ends == {number: pathlib.Path(f"results/study/runs/{number}/finished").stat().st_mtime_ns for number in ends}
     np.testing.assert_allclose(float(rows_of("results/study/runs.csv")[3]["largest_thickness_m"]), 1, rtol=0.02)
+
+
+def test_factors_of_safety():
+    """The factor of clay is in proportion to its strength; tables of thresholds are refused."""
+    if not shutil.which("snakemake"):
+        return
+    text = FACTORS.format(case=pathlib.Path(__file__).resolve().parents[2] / "prm" / "clay" / "random_field.prm")
+    pathlib.Path("study.toml").write_text(text + "[thresholds]\nspeed = 1\n", encoding="utf-8")
+    raises(r"\[thresholds\] has no effect with run_out", study.read, "study.toml")
+    pathlib.Path("study.toml").write_text(text, encoding="utf-8")
+    told = call("--cores", "2")
+    rows = rows_of("results/factors/runs.csv")
+    np.testing.assert_allclose(float(rows[1]["factor"]) / float(rows[0]["factor"]), 2, rtol=0.02)
+    assert "1 of 2 runs are below 1" in told and [row["verdict"] for row in rows] == ["finished"] * 2, told
 
 
 def test_verdicts():

@@ -13,6 +13,7 @@ from scree.results import Raster
 
 # Maps of the largest values, by the names of thresholds.
 MAPS = {"thickness": "largest_thickness", "speed": "largest_speed", "pressure": "largest_impact_pressure"}
+FACTOR = "factor of safety"  # as run_out: the runs are strength reductions
 QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 
@@ -30,6 +31,10 @@ class Result(NamedTuple):
 def numbers_of(study, run):
     """{Result: value} of a run that has ended well."""
     run = pathlib.Path(run)
+    if study.run_out == FACTOR:
+        trials = results.read_table(run / "safety" / "safety.csv")
+        factor, rests = trials["Factor (-)"], trials["Rests (-)"] > 0
+        return {Result("factor", "Factor of safety", "-"): (np.max(factor[rests]) + np.min(factor[~rests])) / 2}
     box, table = results.read_box(run), results.read_statistics(run)
     name = "Run-out length (m)" if study.run_out == "distance" else study.run_out
     quantity, unit = results.split_unit(name)

@@ -130,8 +130,8 @@ def draw(study, done, probabilities):
         charts.draw_profiles(probabilities, word(study), len(done.numbers), folder / "probability.png")
     if probabilities:
         drawn["probability"] = "Part of the runs above each threshold"
-    shown = [one for one in done.results if one.key in ("run_out", "area", "length", "largest_speed", "h_over_l")]
-    run_out = next((one for one in done.results if one.key == "run_out"), None)
+    shown = [one for one in done.results if one.key in ("run_out", "factor", "area", "length", "largest_speed", "h_over_l")]
+    run_out = next((one for one in done.results if one.key in ("run_out", "factor")), None)
     if study.sampling == "one at a time":
         bars = {one: evaluation.tornado(study.parameters, study.rows, [done.numbers.get(number, {}).get(one, np.nan) for number in study.numbers])
                 for one in shown[:3]}
@@ -173,6 +173,10 @@ def summary(study, done):
     n_lost = sum(row.get(evaluation.Result("mass_lost", "Mass lost", "kg"), 0.) > 0 for row in done.numbers.values())
     if n_lost:
         lines.append((False, "Box", f"in {n_lost} of {n_done} runs soil has left through open walls: their run-out is a lower bound. Enlarge the box"))
+    factors = [value for row in done.numbers.values() for one, value in row.items() if one.key == "factor"]
+    if factors and study.sampling != "one at a time":
+        lines.append((True, "Factor", f"mean {np.mean(factors):.3g}, standard deviation {np.std(factors, ddof=len(factors) > 1):.2g}; "
+                      f"{sum(value < 1 for value in factors)} of {len(factors)} runs are below 1"))
     if best := nearest(done):
         values = ", ".join(f"{one.label} = {_short(value)}" for one, value in zip(study.parameters, study.rows[study.numbers.index(best[0])]))
         lines.append((True, "Nearest", f"run {best[0]} has the largest critical success index of the impact, {best[1]:.3f}: {values}"))

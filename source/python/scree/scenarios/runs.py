@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from scree import command, results, variants
 from scree.scenarios import study as studies
+from scree.scenarios.evaluation import FACTOR
 
 SNAKEFILE = pathlib.Path(__file__).with_name("Snakefile.txt")
 MISSING = "Install Debian's package snakemake: apt-get install --no-install-recommends snakemake"
@@ -37,8 +38,8 @@ def verdict(study, number):
         lines = (run / "screen.txt").read_text(encoding="utf-8", errors="replace").strip().splitlines() if (run / "screen.txt").exists() else []
         told = [line for line in lines if line.startswith("scree: ")] or lines or [""]
         return Verdict("stopped" if code == "3" else "failed", (), f"exit code {code}: {told[-1].removeprefix('scree: ')}")
-    seconds = re.match(r"wall time (\S+) s", results.read_log(run).parts.get("Finished", ""))
-    faults, coarse = (tuple(check.name for check in results.read_checks(run) if check.is_exceeded and check.kind == kind) for kind in ("fault", "resolution"))
+    seconds = re.match(r"wall time (\S+) s", results.read_log(study.finished(number)).parts.get("Finished", ""))
+    faults, coarse = (tuple(check.name for check in results.read_checks(study.finished(number)) if check.is_exceeded and check.kind == kind) for kind in ("fault", "resolution"))
     return Verdict("finished", faults, "", float(seconds.group(1)) if seconds else float("nan"), coarse)
 
 
@@ -87,7 +88,8 @@ def prepare(study, n_ranks):
             shutil.rmtree(study.run(number))
     shutil.rmtree(study.folder / "new")
     (study.folder / "values.json").write_text(json.dumps(_values(study)), encoding="utf-8")
-    command_line = [*(["mpirun", "-np", str(n_ranks)] if n_ranks > 1 else []), str(pathlib.Path(command.needed("scree")).resolve())]
+    command_line = [*(["mpirun", "-np", str(n_ranks)] if n_ranks > 1 else []), str(pathlib.Path(command.needed("scree")).resolve()),
+                    *(["--safety"] if study.run_out == FACTOR else [])]
     config = {"runs": study.numbers, "ranks": n_ranks, "program": command_line}
     (study.folder / "runs.json").write_text(json.dumps(config), encoding="utf-8")
     shutil.copy(SNAKEFILE, study.folder / "Snakefile")
@@ -96,7 +98,7 @@ def prepare(study, n_ranks):
 def _is_stale(study, number):
     """Whether the case or a file that it names is newer than the start of the run."""
     case = study.folder / "cases" / f"{number}.prm"
-    started = study.run(number) / "original.prm"
+    started = study.finished(number) / "original.prm"
     if not started.exists():
         return True
     files = [case, *filter(None, (variants.file_named(case, value) for value in variants.read_entries(case).values()))]
@@ -116,7 +118,8 @@ def estimate(study):
     if done.returncode != 0 or not found:
         reason = done.stderr.strip().splitlines() or ["it tells no time"]
         return float("nan"), f"scree --advise of the first run gives none: {reason[-1]}"
-    return float(found.group(1)) + 1, "scree --advise of the first run, and 1 s for its start"
+    n_trials = 10 if study.run_out == FACTOR else 1
+    return n_trials * float(found.group(1)) + 1, ("ten trials of " if n_trials > 1 else "") + "scree --advise of the first run, and 1 s for its start"
 
 
 def duration(seconds):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The file of a study, in TOML: base case, parameters with distributions, sampling, thresholds."""
 
+import contextlib
 import os
 import pathlib
 import subprocess
@@ -11,6 +12,7 @@ import numpy as np
 
 from scree import command, results, settings, variants
 from scree.scenarios import observed, sampling
+from scree.scenarios.evaluation import FACTOR
 
 TABLES = ("set", "parameters", "factors", "thresholds", "observed")
 KEYS = ("case", "results", "sampling", "runs", "seed", "quantiles", "levels", "run_out", "run_out_thickness", *TABLES)
@@ -52,6 +54,10 @@ class Study(NamedTuple):
         """The run folder."""
         return self.folder / "runs" / number
 
+    def finished(self, number):
+        """The folder with log and checks of a run that has ended: of a factor of safety that of the last trial that rests."""
+        return self.run(number) / "safety" / "rests" if self.run_out == FACTOR else self.run(number)
+
     @property
     def base(self):
         return variants.read_entries(self.case)
@@ -75,7 +81,11 @@ def read(file):
     for key, value in fixed.items():
         _check_file(file, case, base, "set", key, value)
     fixed = {key: _moved(file, value) for key, value in fixed.items()}
-    fixed = {"Output/Maps/Write": "true", "Output/Graphics": "none", **fixed}
+    for table in ("thresholds", "observed") if given.get("run_out") == FACTOR else ():
+        if table in given:
+            raise ValueError(f'{file}: [{table}] has no effect with run_out = "{FACTOR}". Remove it')
+    if given.get("run_out") != FACTOR:
+        fixed = {"Output/Maps/Write": "true", "Output/Graphics": "none", **fixed}
     kind = given.get("sampling", "Sobol")
     study = Study(file, case, pathlib.Path(given.get("results", f"results/{file.stem}")), kind, fixed, parameters, _rows(file, given, kind, parameters),
                   _thresholds(file, given), given.get("run_out", "distance"), settings.number(file, given, "run_out_thickness", float({**base, **fixed}.get("Output/Maps/Least thickness", 0.)), unit="m"),
@@ -152,7 +162,10 @@ def _moved(file, value):
 
 
 def _check_file(file, case, base, table, entry, value):
-    """Throws a ValueError if the case names a file here, and the study one that is not there."""
+    """Throws a ValueError if the case names a file here, and the study neither a number nor a file that is there."""
+    with contextlib.suppress(ValueError):
+        float(value)
+        return
     if variants.file_named(case, base.get(entry, "")) and not (file.parent / value).is_file():
         raise settings.fault(file, entry, value, f"there is no such file. Its path counts from {file.name}", table)
 
