@@ -86,7 +86,8 @@ namespace scree
                                 MotionSums<dim, Batch> &sums)
   {
     using Layout         = PropertyLayout<dim>;
-    const OpenKnots open = grid.open_knots(cell.cell);
+    const OpenKnots open     = grid.open_knots(cell.cell);
+    const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
     const CellVelocity<dim, n> nodes(grid.nodes(cell.cell), field, grid.cell_size());
 
     for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n_used) {
@@ -109,6 +110,12 @@ namespace scree
         }
       for (unsigned int c = 0; c < dim; ++c)
         location[c] += time_step * at_points.velocity[c];
+      Batch increment[dim * dim];
+#pragma GCC unroll 9 // else each one goes through memory
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        increment[c] = time_step * at_points.gradient[c] + (c % (dim + 1) == 0 ? 1. : 0.);
+      if (const auto is_large = own[Layout::volume] > simd::broadcast<Batch>(cell_volume); simd::bits_of(is_large) != 0)
+        hold_volume<dim>(affine, increment, is_large);
       Batch affine_square = simd::broadcast<Batch>(0.), place[dim];
       if constexpr (method == TransferMethod::aflip)
         {
@@ -126,13 +133,8 @@ namespace scree
         simd::store_records<dim * dim>(affine, points.slots_at(body.layout.affine));
 
       const unsigned int p = first + indices[0];
-      Batch increment[dim * dim];
-#pragma GCC unroll 9 // else each one goes through memory
       for (unsigned int c = 0; c < dim * dim; ++c)
-        {
-          increment[c] = time_step * at_points.gradient[c] + (c % (dim + 1) == 0 ? 1. : 0.);
-          simd::store(increment[c], &motion.deformation_increment[c * motion.pitch + p]);
-        }
+        simd::store(increment[c], &motion.deformation_increment[c * motion.pitch + p]);
       simd::store(simd::broadcast<Batch>(1.), &motion.out_of_plane_stretch[p]);
       simd::store(determinant_of_rows<dim>(increment), &motion.volume_change[p]);
       simd::store(own[Layout::volume], &motion.volume[p]);

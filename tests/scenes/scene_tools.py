@@ -143,7 +143,7 @@ def check_books(name, table, entries):
     of_water = 0.5 if single else 1e-12  # the former is ours
     for column, word, bound in (("Mass (kg)", "Mass", 1e-12), ("Water mass (kg)", "Water", of_water)):
         if column in table and np.any(table[column]):
-            lost, entered = (table.get(f"{word} {way} (kg)", 0) for way in ("lost", "entered"))
+            lost, entered = (sum(table.get(f"{word} {way} (kg)", 0) for way in ways) for ways in (("lost", "removed"), ("entered", "added")))
             total += np.max(table[column] + lost)
             book = np.abs(table[column] - table[column][0] + lost - entered)
             check(f"{name}: {column} beside its book, relative", np.max(book) / (np.max(entered) or table[column][0]), 0, bound)

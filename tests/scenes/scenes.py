@@ -10,9 +10,10 @@ import os
 
 import numpy as np
 
+from scree.results import read_points, read_times
 from scree.variants import set_entries
 
-from scene_tools import NO_STRESS, at, check, check_balances, check_fall, check_gain, largest_fall, main, mean_oscillation, run
+from scene_tools import NO_STRESS, at, check, check_balances, check_fall, check_gain, largest_fall, main, mean_oscillation, pictures, run
 
 
 def columns(scree):
@@ -72,6 +73,14 @@ def drop(scree):
     table = run(scree, "columns/mohr_coulomb_collapse", "rest", {**slide, "Soil/Initial velocity": "0; 0", "Probes/Wall forces": "true"})
     force = np.mean(table["Bottom soil y (N)"][1:])
     check("rest: force on the floor over weight", force / (mass * gravity), -1.01, -0.99)
+
+
+def flying_clay(scree):
+    """Drops of breached tailings fly ahead without stress: none grows beyond a cell. (One grew to 1e7 m^3, and its next touch ended the run.)"""
+    table = run(scree, "slopes/tailings", "tailings", pictures())
+    largest = max(np.max(read_points("tailings", time).arrays["volume"]) for time in read_times("tailings"))
+    check("flying clay: largest volume of a point over a cell's", largest / 0.5**2, 0.3, 1.1)
+    check("flying clay: run-out, m (ours)", table["Run-out length (m)"][-1], 60, 110)
 
 
 def thrown_block(scree):

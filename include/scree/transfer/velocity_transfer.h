@@ -42,6 +42,27 @@ namespace scree
   }
 
 
+  /// Takes the growth of volume out of dF and, without stress to hold it, of the affine velocity gradient (1/s): of
+  /// points that are larger than a cell, which in free flight would grow until V sigma of the first touch is any force.
+  ///
+  /// @param where points concerned
+  template <int dim>
+  void hold_volume(Batch *gradient, Batch *increment, const simd::Mask<Batch> &where)
+  {
+    Batch growth = gradient[0];
+    for (unsigned int a = 1; a < dim; ++a)
+      growth += gradient[a * (dim + 1)];
+    const Batch zero = simd::broadcast<Batch>(0.), one = simd::broadcast<Batch>(1.);
+    const Batch taken = simd::select<Batch>(where, simd::max<Batch>(growth, zero), zero) * (1. / dim);
+    for (unsigned int a = 0; a < dim; ++a)
+      gradient[a * (dim + 1)] -= taken;
+    const Batch change = simd::select<Batch>(where, simd::max<Batch>(determinant_of_rows<dim>(increment), one), one);
+    const Batch scale  = one / (dim == 2 ? simd::sqrt<Batch>(change) : simd::cube_root<Batch>(change));
+    for (unsigned int c = 0; c < dim * dim; ++c)
+      increment[c] *= scale;
+  }
+
+
   /// Values of nodes at a batch of points; what is not read is not set.
   template <int dim>
   struct NodesAtPoints
