@@ -54,7 +54,7 @@ namespace scree
         , graphics(scene.grid, parameters.output, parameters.output_directory)
         , statistics(scene.grid,
                      scene.forcing.gravity(),
-                     { !scene.loads.empty(),
+                     { !scene.loads.empty() || scene.constraints.front().absorbing_faces() != 0,
                        parameters.water.volume_correction_rate > 0.,
                        scene.has_pressure_work(),
                        parameters.water.viscosity > 0.,
