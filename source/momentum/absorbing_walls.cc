@@ -127,7 +127,7 @@ namespace scree
             const auto impedance = [&](const unsigned int motion) {
               return density * std::sqrt(wave_modulus(*body.material, b, motion, normal) / body.density);
             };
-            const double pressure_wave = impedance(normal), shear_wave = impedance((normal + 1) % dim);
+            const double pressure_wave = impedance(normal), shear_wave = impedance(normal < dim - 1 ? dim - 1 : 0);
             for (unsigned int i = 0; i < basis.n_nodes; ++i)
               {
                 CellPlace<dim> place = base;
