@@ -191,7 +191,9 @@ namespace scree
             require_entry(possible || !walls[face].absorbs, { "Boundaries", names[face], "absorbing" }, remedy);
           };
           const auto require_without = [&](const bool possible, const std::string &what) {
-            require(possible, "it is not possible with " + what + " yet. Remove that, or write free slip.");
+            require(possible,
+                    "it is not possible with " + what + " yet. Remove that, or write " +
+                        BoundaryParameters().texts.at(names[face]) + '.');
           };
           require(names[face] != "Top", "no ground goes on above the soil. Write open.");
           require_without(!parameters.has_water, "subsection Water, whose pressure waves it would reflect,");

@@ -102,7 +102,10 @@ namespace scree
   {
     for (WallNode &wall : wall_nodes)
       {
-        wall.is_free = constraints.has_walls_alone(wall.node);
+        wall.is_free = constraints.has_walls_alone(wall.node) &&
+                       std::all_of(wall.places.begin(), wall.places.end(), [&](const auto &face_and_place) {
+                         return free_field.nodes.empty() || free_field.nodes[face_and_place.second].area > 0.;
+                       });
         if (wall.is_free)
           constraints.release(wall.node, faces);
       }
