@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <scree/momentum/absorbing_walls.h>
+#include <scree/tensor/elastic_strain.h>
 #include <scree/tensor/vector.h>
 
 namespace scree
@@ -20,21 +21,14 @@ namespace scree
                         const unsigned int motion,
                         const unsigned int way)
     {
-      constexpr double strain   = 1e-4;
-      constexpr unsigned int ij = n_symmetric_components<dim>;
-      constexpr std::array<std::array<unsigned int, 2>, 6> components{
-        { { { 0, 0 } }, { { 1, 1 } }, { { 2, 2 } }, { { 0, 1 } }, { { 0, 2 } }, { { 1, 2 } } }
-      };
-      const auto energy = [&](const double by) {
-        Tensor<2, 3> b, F = unit_symmetric_tensor<3>();
-        for (unsigned int c = 0; c < ij; ++c)
-          b[components[c][0]][components[c][1]] = b[components[c][1]][components[c][0]] = left_cauchy_green[c];
-        F[motion][way] += by;
-        b = F * b * transpose(F);
-        std::array<double, ij> deformed;
-        for (unsigned int c = 0; c < ij; ++c)
-          deformed[c] = b[components[c][0]][components[c][1]];
-        return material.elastic_energy(deformed.data());
+      constexpr double strain = 1e-4;
+      const auto energy       = [&](const double by) {
+        double f[dim * dim] = {}, deformed[n_symmetric_components<dim>];
+        for (unsigned int a = 0; a < dim; ++a)
+          f[(dim + 1) * a] = 1.;
+        f[dim * motion + way] += by;
+        trial_left_cauchy_green<dim>(f, 1., left_cauchy_green, deformed);
+        return material.elastic_energy(deformed);
       };
       return std::max(0., energy(strain) - 2. * energy(0.) + energy(-strain)) / (strain * strain);
     }
@@ -302,6 +296,7 @@ namespace scree
                 budget.wall_impulse[a] += time_step * added;
                 budget.soil_walls.of_face[face][a] += time_step * added;
                 budget.wall_dissipation += lost;
+                budget.dashpot_dissipation += lost;
                 budget.load_work += time_step * added * mean + lost;
               }
           }
