@@ -125,7 +125,7 @@ namespace scree
     double contact_dissipation = 0;              ///< energy lost where bodies meet, J
     double drag_dissipation    = 0;              ///< between soil and water, J
     double viscous_dissipation = 0;              ///< of water and suspended soil, J
-    double load_work           = 0;              ///< of surface load, ground beyond walls and (dry) base motion and body force, J
+    double load_work           = 0;              ///< of loads, ground beyond walls, base motion (dry), J
     double correction_work     = 0;              ///< of the volume correction against gravity, J
     double pressure_work       = 0;              ///< of suction and of pressure at drained walls, J
     double motion              = 0; ///< integral of the kinetic energy over time, only with mass scaling, J s
