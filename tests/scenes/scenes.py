@@ -143,9 +143,10 @@ def absorbing_walls(scree):
         file.write(set_entries("", {
             "End time": 0.9, "Gravity": "0, 0", "Mesh/Cell size": size, "Soil/Material": "linear elastic", "Soil/Points per cell": 2,
             "Soil/Grain density": density, "Soil/Linear elastic/Young's modulus": 2 * shear_modulus * (1 + poisson),
-            "Soil/Linear elastic/Poisson's ratio": poisson, "Output/Statistics interval": "0.002"}) + "\n")
+            "Soil/Linear elastic/Poisson's ratio": poisson, "Output/Statistics interval": "0.002",
+            "Boundaries/Left": "absorbing", "Boundaries/Right": "absorbing"}) + "\n")
 
-    bar = {"Soil/Region": "1", "Boundaries/Left": "absorbing", "Boundaries/Right": "absorbing", "Boundaries/Bottom": "free slip", "Boundaries/Top": "free slip",
+    bar = {"Soil/Region": "1", "Boundaries/Bottom": "free slip", "Boundaries/Top": "free slip",
            "Soil/Initial velocity": f"{speed / 2}*(1 - cos(2*pi*(x - 45)/10))*(x > 45)*(x < 55); 0", "Probes/Places": "wall: 59.9, 0.25"}
     run(scree, os.path.abspath("pulse"), "long_bar", {**bar, "End time": 0.3, "Mesh/Upper corner": "80, 0.5"})
     table = run(scree, os.path.abspath("pulse"), "bar", {**bar, "Mesh/Upper corner": "60, 0.5"})
