@@ -161,14 +161,13 @@ namespace scree
           const double *values = field[wall.node];
           const Tensor<1, dim> borne =
               vector_of<dim>(values + NodalField<dim>::force) + values[NodalField<dim>::mass] * forcing.fall();
-          std::uint8_t axes = 0; // that a wall has borne
-          for (const auto &[face, place] : wall.places)
-            for (unsigned int a = 0; a < dim; ++a)
-              if ((a == face / 2 || constraints.is_fixed(face)) && !(axes >> a & 1))
-                {
-                  free_field.nodes[place].force_at_rest[a] = -borne[a];
-                  axes |= 1u << a;
-                }
+          for (unsigned int a = 0; a < dim; ++a)
+            {
+              const auto holds = [&](const auto &of) { return a == of.first / 2 || constraints.is_fixed(of.first); };
+              const auto found = std::find_if(wall.places.begin(), wall.places.end(), holds);
+              if (found != wall.places.end())
+                free_field.nodes[found->second].force_at_rest[a] = -borne[a];
+            }
         }
     NumbersOf(free_field).sum_over_ranks(grid.communicator());
   }
@@ -201,10 +200,9 @@ namespace scree
         const double outward = (face % 2 == 0 ? -1. : 1.) * nodes[k].area;
         const Tensor<1, dim> gradient =
             (nodes[above].displacement - nodes[below].displacement) / std::max(height(above) - height(below), 1e-99);
-        force[first + k]         = Tensor<1, dim>();
-        force[first + k][normal] = outward * (modulus(k, up) - 2. * modulus(k, normal)) * gradient[up];
-        force[first + k][up]     = outward * modulus(k, normal) * gradient[normal];
-        velocity[first + k]      = Tensor<1, dim>();
+        force[first + k][normal] += outward * (modulus(k, up) - 2. * modulus(k, normal)) * gradient[up];
+        force[first + k][up] += outward * modulus(k, normal) * gradient[normal];
+        velocity[first + k] = Tensor<1, dim>();
       }
     const bool is_compliant        = faces >> 2 * up & 1 && lowest == 0;
     constexpr unsigned int n_parts = 2; // of the step: springs are stable up to a Courant number of 0.63
@@ -253,19 +251,15 @@ namespace scree
     using Field = NodalField<dim>;
     if (free_field.nodes.size() != first_place.back())
       begin(bodies, field);
-    velocity.resize(first_place.back());
-    force.resize(first_place.back());
     base_velocity = free_field.base_velocity - 0.5 * time_step * forcing.shaking();
     free_field.base_velocity -= time_step * forcing.shaking();
-    for (unsigned int f = 0; f < 2 * dim && !forcing.is_gravity_alone(); ++f)
-      {
-        const bool is_side = f / 2 < dim - 1;
-        for (unsigned int first = first_place[f]; first < first_place[f + 1]; first += is_side ? n_nodes[dim - 1] : 1)
-          if (is_side)
-            move_column(f, first, time_step);
-          else
-            velocity[first] = base_velocity;
-      }
+    velocity.assign(first_place.back(), base_velocity);
+    force.clear();
+    for (const FreeFieldNode<dim> &node : free_field.nodes)
+      force.push_back(node.force_at_rest);
+    for (unsigned int f = 0; f < 2 * (dim - 1); ++f) // the sides
+      for (unsigned int first = first_place[f]; first < first_place[f + 1]; first += n_nodes[dim - 1])
+        move_column(f, first, time_step);
     for (const WallNode &wall : wall_nodes)
       {
         double *values    = field[wall.node];
@@ -287,17 +281,15 @@ namespace scree
             const double before = values[Field::momentum + a] / mass;
             for (const auto &[face, place] : wall.places)
               {
-                given += free_field.nodes[place].force_at_rest[a] + force[place][a] +
-                         impedance(face, place) * (velocity[place][a] - before);
+                given += force[place][a] + impedance(face, place) * (velocity[place][a] - before);
                 dashpots += impedance(face, place);
               }
             const double mean = before + 0.5 * time_step * given / (mass + 0.5 * time_step * dashpots);
             for (const auto &[face, place] : wall.places)
               {
                 const double closing = velocity[place][a] - mean;
-                const double added =
-                    free_field.nodes[place].force_at_rest[a] + force[place][a] + impedance(face, place) * closing;
-                const double lost = time_step * impedance(face, place) * closing * closing;
+                const double added   = force[place][a] + impedance(face, place) * closing;
+                const double lost    = time_step * impedance(face, place) * closing * closing;
                 values[Field::force + a] += added;
                 budget.wall_impulse[a] += time_step * added;
                 budget.soil_walls.of_face[face][a] += time_step * added;
