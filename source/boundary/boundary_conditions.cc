@@ -110,6 +110,8 @@ namespace scree
         if (!wall->level.empty())
           parse_expression<1>(entry_name(subsection, face), wall->level, 1); // throws if it does not read
         result.push_back(*wall);
+        if (wall->absorbs && face == "Bottom")
+          result.back().holds = Wall::Holds::all;
       }
     return result;
   }

@@ -176,6 +176,37 @@ namespace scree
       for (const BodyParameters &body : parameters.bodies)
         require(body.seeding.initial_velocity.empty(), "\"Initial velocity\" of " + quoted(body.name));
     }
+
+
+    void check_absorbing_walls(const Parameters &parameters)
+    {
+      const auto walls  = parameters.boundaries.walls(parameters.dimension);
+      const auto names  = FaceEntries::names(parameters.dimension);
+      const auto varies = [](const auto &forces) {
+        return std::any_of(forces.begin(), forces.end(), [](const auto &force) { return !force->is_uniform(); });
+      };
+      for (unsigned int face = 0; face < walls.size(); ++face)
+        {
+          const auto require = [&](const bool possible, const std::string &remedy) {
+            require_entry(possible || !walls[face].absorbs, { "Boundaries", names[face], "absorbing" }, remedy);
+          };
+          const auto require_without = [&](const bool possible, const std::string &what) {
+            require(possible,
+                    "it is not possible with " + what + " yet. Remove that, or write " +
+                        BoundaryParameters().texts.at(names[face]) + '.');
+          };
+          require(names[face] != "Top", "no ground goes on above the soil. Write open.");
+          require_without(!parameters.has_water, "subsection Water, whose pressure waves it would reflect,");
+          require_without(parameters.contact_groups().n == 1, "bodies that slide");
+          require_without(parameters.time_step.mass_scaling == 1., "\"Mass scaling\"");
+          require_without(!(parameters.dimension == 2 ? varies(parameters.body_forces.make<2>())
+                                                      : varies(parameters.body_forces.make<3>())),
+                          "\"Body force\"");
+          for (const InflowParameters &inflow : parameters.inflows)
+            require_without(inflow.face_number(parameters.dimension) != face,
+                            "subsection " + inflow.subsection + " at this wall");
+        }
+    }
   } // namespace
 
 
@@ -220,6 +251,7 @@ namespace scree
       body.check(parameters.gravity, parameters.has_water ? &parameters.water : nullptr);
     check_contacts(parameters);
     check_mass_scaling(parameters);
+    check_absorbing_walls(parameters);
     check_points_of_water(parameters);
     check_skeleton_damping(parameters);
     require_entry(parameters.bed.turbulent_friction == 0. || !parameters.has_water,

@@ -18,7 +18,7 @@ namespace scree
     namespace fs = std::filesystem;
 
     const std::string name_of_manifest = "manifest", name_of_step = "step-";
-    const std::string format_line    = "Scree checkpoint, format 25";
+    const std::string format_line    = "Scree checkpoint, format 26";
     const std::string checksum_label = "checksum: ";
 
     std::uint64_t checksum_of(const std::string &content)

@@ -44,6 +44,7 @@ namespace scree
             after *= decay;
           }
 
+        Tensor<1, dim> mean = 0.5 * (before + after);
         if (const NodeConstraints<dim> *walls = constraints.at(node))
           {
             const Tensor<1, dim> free                = after;
@@ -53,10 +54,11 @@ namespace scree
             balance.wall_impulse += impulse;
             balance.soil_walls.add(walls->soil_faces, impulse);
             // Forces do work with the velocity of the step's end, and so none on what is stopped.
-            const Tensor<1, dim> slide = stopped.free_part(0.5 * (before + after));
-            balance.wall_dissipation += 0.5 * mass * stopped.held_part(before - wall_velocity).norm_square() -
-                                        impulse * (stopped.held_part(wall_velocity) + slide);
+            mean = stopped.held_part(wall_velocity) + stopped.free_part(0.5 * (before + after));
+            balance.wall_dissipation +=
+                0.5 * mass * stopped.held_part(before - wall_velocity).norm_square() - impulse * mean;
           }
+        balance.load_work += time_step * mass * (push - forcing.fall()) * mean;
 
         for (unsigned int c = 0; c < dim; ++c)
           {

@@ -279,7 +279,9 @@ namespace scree
         }
       if (features.contacts)
         add_value(row, "Contact dissipation", "J", balance.contact_dissipation);
-      if (features.loads)
+      if (features.absorbing_walls)
+        add_value(row, "Dashpot dissipation", "J", balance.dashpot_dissipation);
+      if (features.loads || features.absorbing_walls)
         add_value(row, "Load work", "J", balance.load_work);
       if (features.pressure_work)
         add_value(row, "Pressure work", "J", balance.pressure_work);

@@ -698,7 +698,7 @@ namespace scree
     stop.listen();
     is_released = false;
     scene.mark_start();
-    scheme->hold_water(true);
+    scheme->settle(true);
     bool goes_on = true;
     while (goes_on && until_rest.time() < maximum_time && reason == StopReason::none)
       {
@@ -710,7 +710,7 @@ namespace scree
       }
     if (reason == StopReason::none)
       {
-        scheme->hold_water(false);
+        scheme->settle(false);
         scene.open_gate();
         scene.stop();
         measure_speeds();

@@ -46,6 +46,8 @@ namespace scree
             model.grid, *surface.samples, surface.turbulent_friction, forces.gravity().norm());
     for (const ContactPair &pair : model.contacts)
       contacts.emplace_back(model.grid, at_nodes[pair.first], at_nodes[pair.second], pair, bodies);
+    if (Constraints<dim> &constraints = *model.constraints.front(); constraints.absorbing_faces() != 0)
+      absorbing_walls = std::make_unique<AbsorbingWalls<dim>>(model.grid, constraints, forces);
     if (groups.size() > 1)
       mean_field = std::make_unique<NodalField<dim>>(model.grid);
   }
@@ -71,8 +73,12 @@ namespace scree
     for (Group &group : groups)
       group.soil.field.scale_inertia(forces.mass_scaling());
     const TimedPart part(timer, TimerSection::nodes);
+    if (absorbing_walls && !is_settling)
+      absorbing_walls->release();
     for (WallGaps<dim> &gaps : wall_gaps)
       gaps.release(forces, time_step);
+    if (absorbing_walls && !is_settling)
+      absorbing_walls->add_forces(bodies, groups.front().soil.field, time_step, budget);
   }
 
 
@@ -129,6 +135,8 @@ namespace scree
           one.group = group.number;
           state.tractions.push_back(one);
         }
+    if (absorbing_walls)
+      state.free_field = absorbing_walls->free_field;
     return state;
   }
 
@@ -145,6 +153,8 @@ namespace scree
                      [&](const auto &one) { return one.group == group.number; });
         group.contact.set_tractions(of_group);
       }
+    if (absorbing_walls)
+      absorbing_walls->free_field = state.free_field;
   }
 
 

@@ -5,6 +5,7 @@ Each test is a function below, whose arguments are numbers or "none" (case_tools
 """
 
 import csv
+import math
 import os
 import re
 import shutil
@@ -20,8 +21,13 @@ CASE = os.path.join(os.environ["SHORT_CASES"], sys.argv[4])
 
 
 def fresh(folder, text, ranks):
-    """The run folder of a case that begins at the start."""
+    """The run folder of a case that begins at the start. A record.csv is a period of a sine along the first axis."""
     shutil.rmtree(folder, ignore_errors=True)
+    if "record.csv" in text:
+        os.mkdir(folder)
+        rest = ", 0" * (2 if "Dimension = 3" in text else 1)
+        with open(os.path.join(folder, "record.csv"), "w", encoding="utf-8") as record:
+            record.writelines(f"{0.01 * i}, {2 * math.sin(0.08 * math.pi * i)}{rest}\n" for i in range(26))
     return run(folder, text, ranks=ranks)
 
 

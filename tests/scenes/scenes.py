@@ -10,10 +10,10 @@ import os
 
 import numpy as np
 
-from scree.results import read_points, read_times
+from scree.results import read_points, read_table, read_times
 from scree.variants import set_entries
 
-from scene_tools import NO_STRESS, at, check, check_balances, check_fall, check_gain, largest_fall, main, mean_oscillation, pictures, run
+from scene_tools import NO_STRESS, at, check, check_balances, check_fall, check_gain, largest_fall, main, mean_oscillation, pictures, run, ROOT
 
 
 def columns(scree):
@@ -128,6 +128,82 @@ def shaken_block(scree):
     for time, relative in ((0.12, -0.447485), (0.26, -0.954930)):
         check("shaken block without friction: velocity at %.3f s over that of the base" % time,
               at(free, "Momentum x (N s)", time) / at(free, "Mass (kg)", time) / relative, 0.9998, 1.0002)
+
+
+def absorbing_walls(scree):
+    """Pulses leave through absorbing walls: next to nothing comes back, and the wall moves as in ground without end. Those that come from below
+    through an absorbing base reach the surface. A layer of ground that is shaken at its base, rigid or absorbing, moves as a column of soil (wave equation),
+    wherever one looks. Dashpots never give energy."""
+    size, height, speed, poisson, density, shear_modulus = 0.5, 10., 0.01, 0.25, 2000., 8e6
+    shear_wave = math.sqrt(shear_modulus / density)
+    pressure_wave = shear_wave * math.sqrt((2 - 2 * poisson) / (1 - 2 * poisson))
+    energy = lambda table: table["Kinetic energy (J)"] + table["Elastic energy (J)"]
+
+    def pulse(phase):
+        return speed / 2 * (1 - np.cos(2 * np.pi * phase)) * (phase > 0) * (phase < 1)
+
+    def check_dashpots(name, table):
+        check(f"{name}: energy that dashpots give over what they take",
+              largest_fall(table["Dashpot dissipation (J)"]) / table["Dashpot dissipation (J)"][-1], 0, 0)
+        check_gain(name, table, 2e-3, table["Load work (J)"][-1] + energy(table)[0])
+
+    with open("pulse.prm", "w", encoding="utf-8") as file:
+        file.write(set_entries("", {
+            "End time": 0.9, "Gravity": "0, 0", "Mesh/Cell size": size, "Soil/Material": "linear elastic", "Soil/Points per cell": 2,
+            "Soil/Grain density": density, "Soil/Linear elastic/Young's modulus": 2 * shear_modulus * (1 + poisson),
+            "Soil/Linear elastic/Poisson's ratio": poisson, "Output/Statistics interval": "0.002",
+            "Boundaries/Left": "absorbing", "Boundaries/Right": "absorbing"}) + "\n")
+
+    bar = {"Soil/Region": "1", "Boundaries/Bottom": "free slip", "Boundaries/Top": "free slip", "Mesh/Cell size": size / 2,
+           "Soil/Initial velocity": f"{speed / 2}*(1 - cos(2*pi*(x - 45)/10))*(x > 45)*(x < 55); 0", "Probes/Places": "wall: 59.9, 0.25"}
+    run(scree, os.path.abspath("pulse"), "long_bar", {**bar, "End time": 0.3, "Mesh/Upper corner": "80, 0.5"})
+    table = run(scree, os.path.abspath("pulse"), "bar", {**bar, "Mesh/Upper corner": "60, 0.5"})
+    check("bar: energy that comes back over its energy", energy(table)[-1] / energy(table)[0], 0, 0.01)
+    of_wall, of_bar = (read_table(f"{name}/probe_wall.csv") for name in ("bar", "long_bar"))
+    exact = 0.5 * pulse((60 - pressure_wave * of_wall["Time (s)"] - 45) / 10)
+    error = lambda other: np.max(np.abs(of_wall["Velocity x (m/s)"][:len(other)] - other)) / (speed / 2)
+    check("bar: change of the motion by the wall, over its peak", error(of_bar["Velocity x (m/s)"]), 0, 0.01)
+    check("bar: error of the wall's velocity over its peak", error(exact), 0, 0.05)
+    check_dashpots("bar", table)
+
+    for kind, wave, axis in (("shear", shear_wave, "x"), ("pressure", pressure_wave, "y")):
+        period = 20 * size / wave
+        time = np.linspace(0, period, 201)
+        motion = np.outer(speed * math.pi / period * np.sin(2 * np.pi * time / period), [axis == "x", axis == "y"])
+        np.savetxt(f"{kind}.csv", np.column_stack((time, motion)), delimiter=",")
+        for cells in (20, 40): # a pulse
+            name = f"{kind}_pulse_{cells}"
+            table = run(scree, os.path.abspath("pulse"), name, {
+                "Mesh/Upper corner": f"20, {height + size}", "Mesh/Cell size": 20 * size / cells, "Soil/Region": f"y < {height}",
+                "Boundaries/Bottom": "absorbing", "Base motion/Acceleration record": os.path.abspath(f"{kind}.csv"),
+                "Probes/Places": "wall: 10, 0; surface: 10, 9.9"})
+            check(f"{name}: energy that comes back over its energy", energy(table)[-1] / np.max(energy(table)), 0, 0.01)
+            for place, y in (("wall", 0.), ("surface", 9.9)):
+                probe = read_table(f"{name}/probe_{place}.csv")
+                up, down, base = (pulse((probe["Time (s)"] - delay / wave) / period) for delay in (y, 2 * height - y, 0.))
+                velocity = probe[f"Velocity {axis} (m/s)"] + base # the box moves as the wave that comes
+                check(f"{name}: peak of the velocity of the {place} over the exact one", np.max(velocity) / np.max(up + down), 0.95, 1.05)
+                # With 20 cells the pulse runs too slowly, whatever the walls are.
+                check(f"{name}: error of the velocity of the {place} over its peak", np.max(np.abs(velocity - up - down)) / np.max(up + down),
+                      0, *((0.12, 0.05) if cells == 20 else (0.05,)))
+            check_dashpots(name, table)
+
+    record = np.loadtxt(os.path.join(ROOT, "prm", "dynamics", "earthquake.csv"), delimiter=",", skiprows=2)
+    fine = np.linspace(0, 8, 8001)
+    motion = np.interp(fine, record[:, 0], record[:, 1])
+    base = np.concatenate(([0.], np.cumsum((motion[1:] + motion[:-1]) / 2 * (fine[1] - fine[0]))))
+    at_base = lambda time: np.interp(time, fine, base, left=0.)
+    delay = 10. / 100.
+    for bottom in ("fixed", "absorbing"):
+        name = f"ground_on_{bottom}_base"
+        table = run(scree, "dynamics/shaken_ground", name, {"Boundaries/Bottom": bottom})
+        check_dashpots(name, table)
+        for place in ("quarter", "middle", "three_quarters"):
+            surface = read_table(f"{name}/probe_{place}.csv")
+            time = surface["Time (s)"]
+            exact = -at_base(time) + sum(2 * (-1)**k * at_base(time - (2 * k + 1) * delay) for k in range(41 if bottom == "fixed" else 1))
+            check(f"{name}: error of the velocity at {place} over its peak",
+                  np.max(np.abs(surface["Velocity x (m/s)"] - exact)) / np.max(np.abs(exact)), 0, 0.05)
 
 
 def stable_step(scree):

@@ -188,6 +188,12 @@ namespace scree
       return own_gravity / scaling;
     }
 
+    /// Acceleration of the uniform ones besides gravity, m/s^2.
+    dealii::Tensor<1, dim> shaking() const
+    {
+      return uniform - fall();
+    }
+
     /// Whether nothing acts besides gravity.
     bool is_gravity_alone() const
     {

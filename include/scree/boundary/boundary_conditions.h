@@ -32,6 +32,7 @@ namespace scree
     double pressure             = 0;     ///< of the water where it holds nothing, Pa
     std::string level =
         ""; ///< in its place: the level that the water falls to there, m, an expression of t; may be empty
+    bool absorbs = false; ///< from the release on it holds nothing, and the ground beyond it acts, see AbsorbingWalls
   };
 
   /// A kind of wall, as entries have it: its name, or name and number.

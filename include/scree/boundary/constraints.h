@@ -108,6 +108,15 @@ namespace scree
       return faces_closed_to_soil() | (water_walls ? water_walls->closed_faces() : 0);
     }
 
+    /// Faces of the box that let waves out, bit f: face f.
+    std::uint8_t absorbing_faces() const
+    {
+      std::uint8_t faces = 0;
+      for (unsigned int f = 0; f < 2 * dim; ++f)
+        faces |= (walls.walls()[f].absorbs ? 1u : 0u) << f;
+      return faces;
+    }
+
     /// Whether there are walls that act on water.
     bool has_water() const
     {

@@ -173,7 +173,8 @@ namespace scree
         viscosity                             = false,   ///< viscosity of the water
         inflows                               = false,   ///< what has entered
         contacts                              = false,   ///< contact between bodies
-        stages                                = false;   ///< what they have removed and added
+        stages                                = false,   ///< what they have removed and added
+        absorbing_walls                       = false;   ///< work of the ground beyond
     const DiscreteLevelSet<dim> *bed          = nullptr; ///< the bed; null without it
     const std::list<Obstacle<dim>> *obstacles = nullptr; ///< the obstacles; null without them
     std::vector<unsigned int> walls           = {};      ///< faces of the box whose forces have columns

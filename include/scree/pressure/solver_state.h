@@ -61,6 +61,41 @@ namespace scree
     }
   };
 
+  /// The ground beyond an absorbing wall at one of the wall's nodes.
+  template <int dim>
+  struct FreeFieldNode
+  {
+    double area          = 0;             ///< of the wall, m^2 (2D: m)
+    double mass          = 0;             ///< density times area, kg/m
+    double pressure_wave = 0;             ///< impedance times area: rho c_p A, N s/m
+    double shear_wave    = 0;             ///< rho c_s A, N s/m
+    dealii::Tensor<1, dim> force_at_rest; ///< on the soil, N
+    dealii::Tensor<1, dim> displacement,  ///< of the free field since the release, relative to the box, m
+        velocity;                         ///< relative to the box, m/s
+
+    /// Saves or loads it (Boost).
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &area &mass &pressure_wave &shear_wave &force_at_rest &displacement &velocity;
+    }
+  };
+
+  /// The ground beyond all absorbing walls, on every rank.
+  template <int dim>
+  struct FreeField
+  {
+    std::vector<FreeFieldNode<dim>> nodes; ///< face by face; empty before the release
+    dealii::Tensor<1, dim> base_velocity;  ///< of the base since the release, m/s
+
+    /// Saves or loads it (Boost).
+    template <class Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &nodes &base_velocity;
+    }
+  };
+
   /// What the solves of a step begin with beside the points, of all ranks: from it a run goes on as if it had not
   /// stopped.
   template <int dim>
@@ -70,12 +105,13 @@ namespace scree
     NumbersByPlace change;                      ///< of the pressure in the last step, Pa
     NumbersByPlace potential;                   ///< of the last shift of water's points, Pa
     PreconditionerState preconditioner;         ///< of the pressure
+    FreeField<dim> free_field;                  ///< beyond absorbing walls
 
     /// Saves or loads it (Boost).
     template <class Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &tractions &change &potential &preconditioner;
+      archive &tractions &change &potential &preconditioner &free_field;
     }
   };
 } // namespace scree

@@ -6,6 +6,7 @@
 #include <scree/contact/bodies/body_contact.h>
 #include <scree/contact/cut_cells/cut_cell_contact.h>
 #include <scree/contact/cut_cells/traction_solver.h>
+#include <scree/momentum/absorbing_walls.h>
 #include <scree/momentum/explicit_update.h>
 #include <scree/schemes/scheme.h>
 #include <scree/momentum/solid_phase.h>
@@ -34,6 +35,8 @@ namespace scree
         }
       for (auto &contact : contacts)
         contact.reinit();
+      if (absorbing_walls)
+        absorbing_walls->reinit();
       if (mean_field)
         mean_field->reinit();
     }
@@ -67,6 +70,8 @@ namespace scree
       const TimedPart part(timer, TimerSection::stress);
       for (Group &group : groups)
         group.soil.to_points(time_step, damping_time, report);
+      if (absorbing_walls)
+        absorbing_walls->keep_inside(bodies);
       for (auto &body : bodies)
         if (!body.is_rigid)
           {
@@ -79,6 +84,12 @@ namespace scree
                                                   group.closed_faces,
                                                   report.balance);
           }
+    }
+    void settle(const bool settles) override
+    {
+      is_settling = settles;
+      if (absorbing_walls)
+        absorbing_walls->free_field = FreeField<dim>();
     }
     SolverState<dim> solver_state() const override;
     void set_solver_state(const SolverState<dim> &state) override;
@@ -156,6 +167,8 @@ namespace scree
     std::list<BodyContact<dim>> contacts;
     std::vector<TurbulentFriction<dim>> turbulent_frictions; // of the bed
     std::unique_ptr<NodalField<dim>> mean_field;             // of all groups; null if there is one
+    std::unique_ptr<AbsorbingWalls<dim>> absorbing_walls;    // null if there are none
+    bool is_settling = false;
     dealii::TimerOutput &timer;
   };
 } // namespace scree

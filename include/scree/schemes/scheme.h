@@ -79,8 +79,8 @@ namespace scree
       return nullptr;
     }
 
-    /// Keeps place and pressure of the water from the next step on, or lets it flow.
-    virtual void hold_water(const bool)
+    /// From the next step on, or no longer, the soil settles: water keeps place and pressure, walls do not absorb.
+    virtual void settle(const bool)
     {
     }
 

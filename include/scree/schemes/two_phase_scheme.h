@@ -63,9 +63,9 @@ namespace scree
         move_water(time_step, report);
       project_to_boundary(time_step, report);
     }
-    void hold_water(const bool holds) override
+    void settle(const bool settles) override
     {
-      water_is_held = holds;
+      water_is_held = settles;
     }
     NodalForces nodal_forces(const double time_step) const override
     {

@@ -120,11 +120,12 @@ namespace scree
     dealii::Tensor<1, dim> bed_impulse;  ///< of the bed, N s
     std::vector<ObstacleBalance<dim>> obstacles; ///< of each; empty until the first step
     double wall_dissipation    = 0;              ///< energy that walls took, J
+    double dashpot_dissipation = 0;              ///< of it, by dashpots of absorbing walls, J
     double bed_dissipation     = 0;              ///< energy that the bed took, J
     double contact_dissipation = 0;              ///< energy lost where bodies meet, J
     double drag_dissipation    = 0;              ///< between soil and water, J
     double viscous_dissipation = 0;              ///< of water and suspended soil, J
-    double load_work           = 0;              ///< of the surface load, J
+    double load_work           = 0;              ///< of loads, ground beyond walls, base motion (dry), J
     double correction_work     = 0;              ///< of the volume correction against gravity, J
     double pressure_work       = 0;              ///< of suction and of pressure at drained walls, J
     double motion              = 0; ///< integral of the kinetic energy over time, only with mass scaling, J s
@@ -172,7 +173,7 @@ namespace scree
     {
       archive &wall_impulse &body_impulse &pressure_impulse &load_impulse &bed_impulse;
       archive &soil_walls &water_walls &obstacles;
-      archive &wall_dissipation &bed_dissipation &contact_dissipation;
+      archive &wall_dissipation &dashpot_dissipation &bed_dissipation &contact_dissipation;
       archive &drag_dissipation &viscous_dissipation &load_work &correction_work &pressure_work &motion;
       archive &n_iterations &n_preconditioners &n_viscous_iterations &n_cavitating;
     }

@@ -54,7 +54,7 @@ def filled(text, rows):
 
 # Lines of the chart: sections of the pages with the rows of each; rows of these sections with a measured reference are open circles.
 QUESTIONS = {"factor of safety": ("clay-and-mud",), "dry columns and slopes": ("aluminium-bars", "granular-columns-against-experiments", "breaking-layer-of-grains"),
-             "blocks and bars": ("dry-soil-on-an-oblique-bed", "contact-between-bodies"),
+             "blocks and bars": ("dry-soil-on-an-oblique-bed", "contact-between-bodies"), "earthquakes": ("absorbing-walls",),
              "consolidation": ("terzaghis-consolidation", "scaled-inertia", "large-strain"),
              "seepage, infiltration": ("darcy-and-ergun-flow", "infiltration-into-dry-soil"),
              "dam break, waves": ("dam-break-on-a-dry-bed", "dam-break-on-a-wet-bed", "sloshing-and-rest", "viscous-films", "inflow"),
