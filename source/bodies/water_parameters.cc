@@ -38,11 +38,12 @@ namespace scree
         point_sets,
         "double: water has points of its own, which move with it. single: the soil points carry the water.",
         Patterns::Selection("double|single"));
-    prm.add_parameter("Points per cell",
-                      points_per_cell,
-                      "Water points along each axis of a cell. Double-point only. Take 6 where water flows into a body with "
-                      "pores: there the distance of the points grows to 1/n of it, n = porosity.",
-                      Patterns::Integer(1, 32));
+    prm.add_parameter(
+        "Points per cell",
+        points_per_cell,
+        "Water points along each axis of a cell. Double-point only. Take 6 where water flows into a body with "
+        "pores: there the distance of the points grows to 1/n of it, n = porosity.",
+        Patterns::Integer(1, 32));
     prm.add_parameter("Density", density, "kg/m^3; density of the water.", Patterns::Double(1e-12));
     add_drag_parameters(prm);
     prm.add_parameter("Viscosity", viscosity, "Pa s; dynamic viscosity of the water; 0: none.", Patterns::Double(0));

@@ -429,16 +429,10 @@ namespace scree
                                              { "Safety", "", Change::noted } };
 
     /// Entries of laws that a stage may change: strengths, which the points do not have from the start on.
-    const std::set<std::string> strengths{ "Friction angle",
-                                           "Dilation angle",
-                                           "Cohesion",
-                                           "Tension cut-off",
-                                           "Softening strain",
-                                           "Residual friction angle",
-                                           "Residual dilation angle",
-                                           "Residual cohesion",
-                                           "Consistency",
-                                           "Flow index" };
+    const std::set<std::string> strengths{
+      "Friction angle",          "Dilation angle",          "Cohesion",          "Tension cut-off", "Softening strain",
+      "Residual friction angle", "Residual dilation angle", "Residual cohesion", "Consistency",     "Flow index"
+    };
 
     /// Whether points have the strength of the law of this subsection from their place.
     bool varies(const CaseEntries &entries, const std::string &subsection)

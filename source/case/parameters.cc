@@ -445,7 +445,7 @@ namespace scree
     if (!water.phreatic_layer.empty())
       others.emplace_back("Water", "Phreatic layer", water.phreatic_layer);
     if (!stage.removed_layer.empty())
-      others.emplace_back("Stage", "Remove layer", stage.removed_layer);
+      others.emplace_back(stage.subsection(), "Remove layer", stage.removed_layer);
     for (const auto &entries : { of_bodies, others })
       for (const EntryValue &entry : entries)
         require_entry(!drawing.empty(), entry, "it is a layer of a drawing. Write its file as \"Drawing\".");
@@ -468,7 +468,7 @@ namespace scree
           layers_in_use.push_back(entry.value);
       }
     for (const EntryValue &entry : others)
-      if (layers_in_use.push_back(entry.value); entry.subsection == "Stage")
+      if (layers_in_use.push_back(entry.value); entry.entry == "Remove layer")
         {
           require_entry(stage.removed.empty(), entry, "\"Remove\" is there, too. Keep one of the two.");
           stage.removed_areas = map_of(entry);
@@ -645,11 +645,11 @@ namespace scree
                         " adds this body, and its weight gives its stress while the stage "
                         "settles. Write none, and a \"Maximum time\" in subsection Settling.");
     if (dimension == 2 && !stage.removed.empty())
-      parse_expression<2>(entry_name("Stage", "Remove"), stage.removed, 1);
+      parse_expression<2>(entry_name(stage.subsection(), "Remove"), stage.removed, 1);
     else if (!stage.removed.empty())
-      parse_expression<3>(entry_name("Stage", "Remove"), stage.removed, 1);
+      parse_expression<3>(entry_name(stage.subsection(), "Remove"), stage.removed, 1);
     require_entry(stage.adds.empty() || !grid.is_adaptive(),
-                  { "Stage", "Add", boost::algorithm::join(stage.adds, ", ") },
+                  { stage.subsection(), "Add", boost::algorithm::join(stage.adds, ", ") },
                   "the fine cells of a box of more than 20 000 cells are around the points of the start. Write larger "
                   "cells or a smaller box.");
     if (!stage.name.empty())

@@ -350,7 +350,9 @@ namespace scree
                                                number_text({ last.getX(), last.getY() }) +
                                                " m is open. Join and close what encloses the area as one polyline."));
           require_area(polygon_of(line), entry_message(entry, ""));
-          edges.push_back(polygon_of(line).clone());
+          const OGRPolygon area = polygon_of(line);
+          if (std::none_of(edges.begin(), edges.end(), [&](const auto *other) { return other->Equals(&area); }))
+            edges.push_back(area.clone()); // A polyline that is drawn twice would be a hole in itself.
         }
     if (!edges.empty())
       {
@@ -437,12 +439,24 @@ namespace scree
                                              }) > 1)
         remarks.push_back("Unusual value: " + name + "a gap between its layers has " + text_of(gap) +
                           ". No body is there; draw the layers up to each other if that is not meant.");
-    std::string unused;
+    std::vector<std::string> areas, lines; // layers with them that are not used; texts do not count
     for (const auto &[layer, shapes] : layers)
       if (std::find(used.begin(), used.end(), layer) == used.end())
-        unused += (unused.empty() ? "" : ", ") + scree::quoted(layer);
-    if (!unused.empty())
-      remarks.push_back("Unusual value: " + name + "the case does not use its layers " + unused + '.');
+        {
+          const bool has_areas = std::any_of(shapes.begin(), shapes.end(), [](const auto &shape) {
+            const auto type = wkbFlatten(shape->getGeometryType());
+            return type == wkbPolygon || (type == wkbLineString && shape->toLineString()->get_IsClosed());
+          });
+          const bool has_lines = std::any_of(shapes.begin(), shapes.end(), [](const auto &shape) {
+            return wkbFlatten(shape->getGeometryType()) == wkbLineString;
+          });
+          if (has_areas || has_lines)
+            (has_areas ? areas : lines).push_back(scree::quoted(layer));
+        }
+    for (const auto &[names, text] : { std::make_pair(areas, "no body is in the areas of its layers "),
+                                       std::make_pair(lines, "the case does not use its layers ") })
+      if (!names.empty())
+        remarks.push_back("Unusual value: " + name + text + boost::algorithm::join(names, ", ") + '.');
     return remarks;
   }
 } // namespace scree

@@ -82,11 +82,14 @@ namespace scree
     {
       const auto [first, last] = areas.bounds();
       const double rounding    = 1e-6 * first.distance(last); // of coordinates of the map
+      const double box         = Point<2>(lower[0], lower[1]).distance(Point<2>(upper[0], upper[1]));
+      const bool is_in_mm      = first.distance(last) > 100. * box;
       require_entry(first[0] >= lower[0] - rounding && first[1] >= lower[1] - rounding &&
                         last[0] <= upper[0] + rounding && last[1] <= upper[1] + rounding,
                     entry,
                     "it reaches from " + number_text(first) + " to " + number_text(last) +
-                        " m, beyond the box of subsection Mesh. " + remedy);
+                        " m, beyond the box of subsection Mesh. " +
+                        (is_in_mm ? "Coordinates are in m; scale by 0.001 what is drawn in mm." : remedy));
     }
   } // namespace
 

@@ -829,7 +829,8 @@ namespace scree
     StageMasses masses;
     if (const auto [entry, value] = stage.removal(); !value.empty())
       {
-        const Region<dim> region(entry_name("Stage", entry), stage.removed_areas ? "1" : value, stage.removed_areas);
+        const Region<dim> region(
+            entry_name(stage.subsection(), entry), stage.removed_areas ? "1" : value, stage.removed_areas);
         const Point<dim> beyond = grid.upper_corner() + (grid.upper_corner() - grid.lower_corner());
         const auto remove       = [&](PointSet<dim> &points) { // beside the mesh they leave the set
           on_all_ranks(communicator, [&] {

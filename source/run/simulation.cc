@@ -69,7 +69,7 @@ namespace scree
     scheme->set_solver_state(solver_state);
     points_at_edge = are_points_at_edge() || points_at_edge;
     output_times.begin(clock.time());
-    results.cut();
+    results.cut(parameters.start_folder.empty());
     if (start == Start::resume)
       {
         if (parameters.stage.name.empty() || !parameters.start_folder.empty()) // that of a trial is its own
@@ -95,16 +95,20 @@ namespace scree
     if (!removal.second.empty())
       folder.log("Removed     soil " + number_text(masses.removed_soil) + unit +
                  (scene.water.empty() ? "" : ", water " + number_text(masses.removed_water) + unit));
+    if (masses.removed_water > 0. && masses.removed_soil > 0.)
+      folder.log("Unusual value: " + entry_name(parameters.stage.subsection(), removal.first) +
+                 ": what it removes is in part below the water table. The water around it keeps its pressure and flows "
+                 "in, which lifts the floor; for a pit that is kept dry write the lowered water table.");
     if (!parameters.stage.adds.empty())
       folder.log("Added       soil " + number_text(masses.added_soil) + unit);
     require_entry(removal.second.empty() || masses.removed_soil + masses.removed_water > 0.,
-                  { "Stage", removal.first, removal.second },
+                  { parameters.stage.subsection(), removal.first, removal.second },
                   "no point is there. Look at the place.");
     require_entry(std::any_of(scene.bodies.begin(),
                               scene.bodies.end(),
                               [](const auto &body) { return body.points.handler().n_global_particles() > 0; }) ||
                       parameters.bodies.empty(),
-                  { "Stage", removal.first, removal.second },
+                  { parameters.stage.subsection(), removal.first, removal.second },
                   "no soil is left. Look at the place.");
     reinit();
     measure_speeds();

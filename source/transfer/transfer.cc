@@ -85,7 +85,7 @@ namespace scree
                                 LargestSquare &largest,
                                 MotionSums<dim, Batch> &sums)
   {
-    using Layout         = PropertyLayout<dim>;
+    using Layout             = PropertyLayout<dim>;
     const OpenKnots open     = grid.open_knots(cell.cell);
     const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
     const CellVelocity<dim, n> nodes(grid.nodes(cell.cell), field, grid.cell_size());

@@ -144,6 +144,12 @@ namespace scree
     /// Declares the subsection and its entries.
     void add_parameters(dealii::ParameterHandler &prm);
 
+    /// Its subsection in the case, for messages.
+    std::string subsection() const
+    {
+      return prefix + name;
+    }
+
     /// Entry and value of what vanishes; no value: nothing does.
     std::pair<std::string, std::string> removal() const
     {

@@ -67,9 +67,12 @@ namespace scree
                   const double time,
                   const WaterView<dim> *view = nullptr);
 
-    /// After the state has been read from a checkpoint: takes the pictures that were written after it off the lists.
-    void cut() const
+    /// After the state has been read from a checkpoint: takes the pictures that were written after it off the lists, or
+    /// all of them if they are not in this run's folder.
+    void cut(const bool is_own_folder)
     {
+      if (!is_own_folder)
+        series.clear();
       std::vector<FileContent> files;
       for (const auto &[name, list] : series)
         if (rank == 0 && !list.empty())

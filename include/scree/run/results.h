@@ -199,10 +199,10 @@ namespace scree
     }
 
     /// After a checkpoint has been read: drops from lists and rows what was written after it.
-    void cut()
+    void cut(const bool is_own_folder)
     {
       folder.write("checks.csv", ""); // those of a run that has gone on
-      graphics.cut();
+      graphics.cut(is_own_folder);
       for (TableFile &table : probes.files())
         table.cut();
       rows.cut();

@@ -370,8 +370,7 @@ namespace scree
                 ExcMessage("Mohr-Coulomb cannot bear the initial stress, which is outside the yield surface by " +
                            std::to_string(outside) +
                            " Pa. Remedy: a K0 of at least (1 - sin phi)/(1 + sin phi), or cohesion; look at the units "
-                           "of \"Friction angle\", "
-                           "degrees, and \"Cohesion\", Pa."));
+                           "of \"Friction angle\", degrees, \"Cohesion\", Pa, and of the unit weights, N/m^3."));
     elastic.initialise(wanted_stress, strain, stress, nullptr);
     internal_variables[0] = 0;
   }
