@@ -200,7 +200,7 @@ void test_folders()
   test_damage([] { set_content(newer + "manifest", "Scree checkpoint, format 1\nchecksum: 87f4fa9080897eca\n"); },
               not_used + newer +
                   "manifest: begins with \"Scree checkpoint, format 1\", but this program reads \"Scree " +
-                  "checkpoint, format 25\". Step 1");
+                  "checkpoint, format 26\". Step 1");
   test_damage(
       [&] {
         clear_newer();
