@@ -349,8 +349,8 @@ namespace scree
                                            "its line from " + number_text({ first.getX(), first.getY() }) + " to " +
                                                number_text({ last.getX(), last.getY() }) +
                                                " m is open. Join and close what encloses the area as one polyline."));
-          require_area(polygon_of(line), entry_message(entry, ""));
           const OGRPolygon area = polygon_of(line);
+          require_area(area, entry_message(entry, ""));
           if (std::none_of(edges.begin(), edges.end(), [&](const auto *other) { return other->Equals(&area); }))
             edges.push_back(area.clone()); // A polyline that is drawn twice would be a hole in itself.
         }
@@ -443,13 +443,12 @@ namespace scree
     for (const auto &[layer, shapes] : layers)
       if (std::find(used.begin(), used.end(), layer) == used.end())
         {
-          const bool has_areas = std::any_of(shapes.begin(), shapes.end(), [](const auto &shape) {
-            const auto type = wkbFlatten(shape->getGeometryType());
-            return type == wkbPolygon || (type == wkbLineString && shape->toLineString()->get_IsClosed());
-          });
-          const bool has_lines = std::any_of(shapes.begin(), shapes.end(), [](const auto &shape) {
-            return wkbFlatten(shape->getGeometryType()) == wkbLineString;
-          });
+          bool has_areas = false, has_lines = false;
+          for (const auto &shape : shapes)
+            if (wkbFlatten(shape->getGeometryType()) == wkbPolygon)
+              has_areas = true;
+            else if (wkbFlatten(shape->getGeometryType()) == wkbLineString)
+              (shape->toLineString()->get_IsClosed() ? has_areas : has_lines) = true;
           if (has_areas || has_lines)
             (has_areas ? areas : lines).push_back(scree::quoted(layer));
         }

@@ -159,14 +159,14 @@ namespace scree
       if (wall.node < grid.n_owned_nodes() && wall.is_free)
         {
           const double *values = field[wall.node];
-          const Tensor<1, dim> borne =
+          const Tensor<1, dim> held =
               vector_of<dim>(values + NodalField<dim>::force) + values[NodalField<dim>::mass] * forcing.fall();
           for (unsigned int a = 0; a < dim; ++a)
             {
               const auto holds = [&](const auto &of) { return a == of.first / 2 || constraints.is_fixed(of.first); };
               const auto found = std::find_if(wall.places.begin(), wall.places.end(), holds);
               if (found != wall.places.end())
-                free_field.nodes[found->second].force_at_rest[a] = -borne[a];
+                free_field.nodes[found->second].force_at_rest[a] = -held[a];
             }
         }
     NumbersOf(free_field).sum_over_ranks(grid.communicator());

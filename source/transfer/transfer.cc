@@ -115,7 +115,11 @@ namespace scree
       for (unsigned int c = 0; c < dim * dim; ++c)
         increment[c] = time_step * at_points.gradient[c] + (c % (dim + 1) == 0 ? 1. : 0.);
       if (const auto is_large = own[Layout::volume] > simd::broadcast<Batch>(cell_volume); simd::bits_of(is_large) != 0)
-        hold_volume<dim>(affine, increment, is_large);
+        {
+          hold_volume<dim>(increment, is_large);
+          if constexpr (carries_affine(method))
+            stop_growth<dim>(affine, is_large);
+        }
       Batch affine_square = simd::broadcast<Batch>(0.), place[dim];
       if constexpr (method == TransferMethod::aflip)
         {

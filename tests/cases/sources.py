@@ -192,7 +192,7 @@ EXPRESSIONS = {"clay": "y < if(x < 7.3, 1 + 1.2/7.3*x, 2.2 + 0.8/4.7*(x - 7.3)) 
 
 
 def draw(file, driver):
-    """The section in a format of GDAL. The hole is a ring of the polygon, in DXF a line within a line."""
+    """The section in a format of GDAL. The hole is a ring of the polygon, in DXF a line within a line, and one line is drawn twice."""
     is_dxf = driver == "DXF"
     data = ogr.GetDriverByName(driver).CreateDataSource(file)
 
@@ -214,7 +214,8 @@ def draw(file, driver):
         if name == "water table":
             add(name, line(corners, ogr.wkbLineString))
         elif is_dxf:
-            add(name.replace("hole", "clay"), line(corners + corners[:1], ogr.wkbLineString))
+            for _ in range(1 + (name == "sand")):
+                add(name.replace("hole", "clay"), line(corners + corners[:1], ogr.wkbLineString))
         elif name != "hole":
             polygon = ogr.Geometry(ogr.wkbPolygon)
             for ring in [corners] + [DRAWN["hole"]] * (name == "clay"):

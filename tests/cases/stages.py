@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Stages of one case: level ground, 4 m high, from which soil is dug and on which a fill is laid (case_tools.py)."""
 
+import re
 import shutil
 import subprocess
 import sys
@@ -57,6 +58,15 @@ def goes_on():
         check(abs(end[name] - value) <= 1e-9 * max(1., abs(value)), f"{name}: {end[name]}, not {value}")
 
 
+def search():
+    """A search of the factor after a stage lists the pictures of its trials, and no others."""
+    folder = run("search", set_entries(CASE, {"Output/Graphics": "points", "Safety/Tolerance": 0.2}), "--safety")
+    for trial in ("rests", "fails"):
+        solution = folder / "safety" / trial / "solution"
+        listed = re.findall(r'file="([^"]+)"', (solution / "points.pvd").read_text(encoding="utf-8"))
+        check(listed and all((solution / name).exists() for name in listed), f"{trial}: {listed}")
+
+
 def refusals():
     """Names entry, value and remedy before anything runs."""
     for entries, words in (({"Stage Lay/Add": "Fil"}, 'entry "Bodies" lists Soil, Fill'),
@@ -69,7 +79,9 @@ def refusals():
                            ({"Fill/Region": "y > 2 && y < 5"}, "is full of other soil"),
                            ({"Stage Dig/Remove": "y > 0"}, "no soil is left"),
                            ({"Stage Dig/Remove": "y > 9"}, "no point is there"),
-                           ({"Stage Dig/Remove": "y >"}, "Remove"),
+                           ({"Stage Dig/Remove": "y >"}, 'subsection Stage Dig, entry "Remove"'),
+                           ({"Soil/Material": "Herschel-Bulkley", "Soil/Herschel-Bulkley/Yield stress": 1e5, "Stage Dig/Soil/Herschel-Bulkley/Yield stress": 2e5},
+                            "a stage cannot change that"),
                            ({"Stage/Remove": "y > 9"}, "A stage has a name"),
                            ("subsection Stage A/B\nend\n", "divides names"),
                            ("subsection Stage Dig\nend\n", "stands in this file before")):
@@ -79,4 +91,4 @@ def refusals():
         check(done.returncode == 1 and words in " ".join(done.stderr.split()), f"{entries}: {done.stderr}")
 
 
-{"books": books, "goes_on": goes_on, "refusals": refusals}[sys.argv[3]]()
+{"books": books, "goes_on": goes_on, "refusals": refusals, "search": search}[sys.argv[3]]()

@@ -16,9 +16,9 @@ namespace scree
   /// From the release on, where soil lies at the walls then, the force at rest of a node stays, and dashpots of the
   /// impedances rho c_p and rho c_s act on its velocity relative to the free field (@source{lysmer1969}). The free
   /// field of a side is a column of elastic soil for each line of nodes, which the base motion shakes; its stress acts
-  /// on the wall, too
-  /// (@source{zienkiewicz1989}). Beyond the bottom is a half space, from which the base motion comes as a wave
-  /// (@source{mejia2006}). A step takes the mean of the velocities at its ends, so that dashpots never give energy.
+  /// on the wall, too (@source{zienkiewicz1989}). Beyond the bottom is a half space, from which the base motion comes
+  /// as a wave (@source{mejia2006}). A step takes the mean of the velocities at its ends, so that dashpots never give
+  /// energy.
   template <int dim>
   class AbsorbingWalls
   {

@@ -42,24 +42,32 @@ namespace scree
   }
 
 
-  /// Takes the growth of volume out of dF and, without stress to hold it, of the affine velocity gradient (1/s): of
-  /// points that are larger than a cell, which in free flight would grow until V sigma of the first touch is any force.
+  /// Takes the growth of volume out of the dF of points that are larger than a cell: in free flight they would grow
+  /// until V sigma of the first touch is any force.
   ///
   /// @param where points concerned
   template <int dim>
-  void hold_volume(Batch *gradient, Batch *increment, const simd::Mask<Batch> &where)
+  void hold_volume(Batch *increment, const simd::Mask<Batch> &where)
   {
-    Batch growth = gradient[0];
+    const Batch one    = simd::broadcast<Batch>(1.);
+    const Batch growth = simd::select<Batch>(where, simd::max<Batch>(determinant_of_rows<dim>(increment), one), one);
+    const Batch scale  = one / (dim == 2 ? simd::sqrt<Batch>(growth) : simd::cube_root<Batch>(growth));
+    for (unsigned int c = 0; c < dim * dim; ++c)
+      increment[c] *= scale;
+  }
+
+
+  /// The same of the velocity gradient that they carry, 1/s.
+  template <int dim>
+  void stop_growth(Batch *gradient, const simd::Mask<Batch> &where)
+  {
+    const Batch zero = simd::broadcast<Batch>(0.);
+    Batch growth     = gradient[0];
     for (unsigned int a = 1; a < dim; ++a)
       growth += gradient[a * (dim + 1)];
-    const Batch zero = simd::broadcast<Batch>(0.), one = simd::broadcast<Batch>(1.);
     const Batch taken = simd::select<Batch>(where, simd::max<Batch>(growth, zero), zero) * (1. / dim);
     for (unsigned int a = 0; a < dim; ++a)
       gradient[a * (dim + 1)] -= taken;
-    const Batch change = simd::select<Batch>(where, simd::max<Batch>(determinant_of_rows<dim>(increment), one), one);
-    const Batch scale  = one / (dim == 2 ? simd::sqrt<Batch>(change) : simd::cube_root<Batch>(change));
-    for (unsigned int c = 0; c < dim * dim; ++c)
-      increment[c] *= scale;
   }
 
 
