@@ -26,11 +26,14 @@ namespace scree
       , transfer(grid, transfer, stabilisation)
       , bodies(bodies)
       , loads(loads)
-      , group(group)
   {
-    for (const auto &body : bodies)
-      if (moves(body) && is_averaged(body) && !nonlocal)
-        nonlocal = std::make_unique<NonlocalAverage<dim>>(grid);
+    for (auto &body : bodies)
+      if (body.group == group && !body.is_rigid)
+        {
+          moving.push_back(&body);
+          if (is_averaged(body) && !nonlocal)
+            nonlocal = std::make_unique<NonlocalAverage<dim>>(grid);
+        }
   }
 
 
@@ -52,9 +55,9 @@ namespace scree
     if (!nonlocal)
       return;
     const TimedPart part(timer, TimerSection::nonlocal);
-    for (auto &body : bodies)
-      if (moves(body) && is_averaged(body))
-        nonlocal->update(body);
+    for (auto *body : moving)
+      if (is_averaged(*body))
+        nonlocal->update(*body);
   }
 
 
@@ -63,9 +66,8 @@ namespace scree
   {
     load_time = time;
     field.clear();
-    for (const auto &body : bodies)
-      if (moves(body))
-        transfer.to_grid(body, field);
+    for (const auto *body : moving)
+      transfer.to_grid(*body, field);
     for (auto &one : loads)
       one.find_areas(bodies);
   }
@@ -84,17 +86,15 @@ namespace scree
   template <int dim>
   void SolidPhase<dim>::to_points(const double time_step, const double damping_time, StepReport<dim> &report)
   {
-    for (auto &body : bodies)
-      if (moves(body))
-        {
-          const MotionReport<dim> motion = transfer.to_points(body, field, time_step, damping_time);
+    transfer.to_points(
+        moving, field, time_step, damping_time, [&](const SoilBody<dim> &body, const MotionReport<dim> &motion) {
           report.speeds.include_wave(
               body.wave_speed(motion.material.largest_bulk_modulus, motion.material.largest_compression));
           report.speeds.include_point(motion.largest_speed);
           report.material.add(motion.material);
           report.soil += motion.sums;
           report.n_updates += motion.material.n_updates;
-        }
+        });
     for (auto &one : loads)
       report.balance.load_work += one.move(field, load_time, time_step);
   }

@@ -149,51 +149,68 @@ namespace scree
 
   template <int dim>
   template <int n, TransferMethod method>
-  MotionReport<dim> Transfer<dim>::move_points(SoilBody<dim> &body,
-                                               const NodalField<dim> &field,
-                                               const double time_step,
-                                               const double damping_time)
+  void Transfer<dim>::move_points(const Bodies &bodies,
+                                  const NodalField<dim> &field,
+                                  const double time_step,
+                                  const double damping_time,
+                                  const Report &report)
   {
-    const double keep = kept_velocity(method, pic_rate, time_step);
-    MotionReport<dim> report;
-    LargestSquare largest;
-    MotionSums<dim, Batch> sums;
-    const auto move = [&](const Block &block) {
-      block.for_each_cell([&](const CellPoints<dim> &cell, const unsigned int first) {
-        move_cell<n, method>(body, cell, field, time_step, keep, first, largest, sums);
-        if (!projection)
-          apply_f_bar(f_bar, first, body.material_points(cell), motion);
-      });
-    };
-    const auto &cells = body.points.cells();
-    const Block all{ cells.data(), cells.data() + cells.size(), 0, static_cast<unsigned int>(body.points.n_points()) };
+    const double keep     = kept_velocity(method, pic_rate, time_step);
+    unsigned int n_points = 0;
+    moved.clear();
+    for (auto *body : bodies)
+      {
+        const auto &cells = body->points.cells();
+        Block block{ cells.data(), cells.data() + cells.size(), n_points };
+        block.n_points = body->points.n_points();
+        n_points += block.n_points;
+        moved.push_back({ block, {} });
+      }
     if (projection) // The vertices need the motion of all points.
       {
-        motion.resize(all.n_points);
-        projection->clear(all.n_points);
-        for_each_block(all, [&](const Block &block) {
-          move(block);
-          projection->add(body, block, motion);
-        });
-        projection->fit();
+        motion.resize(n_points);
+        projection->clear(n_points, bodies.size() > 1);
       }
-    for_each_block(all, [&](Block block) {
-      if (projection)
-        block.for_each_cell(
-            [&](const CellPoints<dim> &cell, const unsigned int first) { projection->apply(cell, first, motion); });
-      else
-        {
-          block.first = 0;
-          motion.resize(block.n_points);
-          move(block);
-        }
-      update_state(body, block, time_step, damping_time, report.material);
-    });
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        auto &[cells, motion_of_body] = moved[b];
+        LargestSquare largest;
+        MotionSums<dim, Batch> sums;
+        for_each_block(cells, [&](Block block) {
+          if (!projection)
+            {
+              block.first = 0;
+              motion.resize(block.n_points);
+            }
+          block.for_each_cell([&](const CellPoints<dim> &cell, const unsigned int first) {
+            move_cell<n, method>(*bodies[b], cell, field, time_step, keep, first, largest, sums);
+            if (!projection)
+              apply_f_bar(f_bar, first, bodies[b]->material_points(cell), motion);
+          });
+          if (projection)
+            projection->add(*bodies[b], block, motion);
+          else
+            update_state(*bodies[b], block, time_step, damping_time, motion_of_body.material);
+        });
+        motion_of_body.largest_speed = largest.speed();
+        motion_of_body.sums          = sums.of_lanes();
+      }
     if (projection)
-      report.material.averaging_work += projection->kept_work();
-    report.largest_speed = largest.speed();
-    report.sums          = sums.of_lanes();
-    return report;
+      projection->fit();
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        auto &[cells, motion_of_body] = moved[b];
+        if (projection)
+          {
+            for_each_block(cells, [&](const Block &block) {
+              block.for_each_cell(
+                  [&](const CellPoints<dim> &cell, const unsigned int first) { projection->apply(cell, first, motion); });
+              update_state(*bodies[b], block, time_step, damping_time, motion_of_body.material);
+            });
+            motion_of_body.material.averaging_work += projection->take_kept_work();
+          }
+        report(*bodies[b], motion_of_body);
+      }
   }
 
 
@@ -251,14 +268,15 @@ namespace scree
 
 
   template <int dim>
-  MotionReport<dim> Transfer<dim>::to_points(SoilBody<dim> &body,
-                                             const NodalField<dim> &field,
-                                             const double time_step,
-                                             const double damping_time)
+  void Transfer<dim>::to_points(const Bodies &bodies,
+                                const NodalField<dim> &field,
+                                const double time_step,
+                                const double damping_time,
+                                const Report &report)
   {
-    return with_nodes_1d(grid, [&](auto n) {
-      return with_method(
-          method, [&](auto of_points) { return move_points<n, of_points>(body, field, time_step, damping_time); });
+    with_nodes_1d(grid, [&](auto n) {
+      with_method(
+          method, [&](auto of_points) { move_points<n, of_points>(bodies, field, time_step, damping_time, report); });
     });
   }
 

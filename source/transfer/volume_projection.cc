@@ -73,7 +73,21 @@ namespace scree
         increment[c] = load(&motion.deformation_increment[c * motion.pitch + p]);
       store(shear_of<dim>(increment), &shear_of_step[p]);
     });
-    block.for_each_cell([&](const CellPoints<dim> &cell, const unsigned int first) { add_cell(cell, first, motion); });
+    block.for_each_cell([&](const CellPoints<dim> &cell, const unsigned int first) {
+      compliance[first] = 1;
+      if (are_several)
+        {
+          double volume = 0, pressure = 0;
+          for (unsigned int p = first; p < first + cell.n_points; ++p)
+            {
+              volume += weight[p];
+              pressure -= stress_volume[p];
+            }
+          const double bulk = body.material->initial_bulk_modulus(volume > 0 ? std::max(pressure / volume, 0.) : 0.);
+          compliance[first] = 1. / (bulk + 4. / 3. * body.material->shear_modulus);
+        }
+      add_cell(cell, first, motion);
+    });
   }
 
 
@@ -112,6 +126,12 @@ namespace scree
               rows[volume + k] += terms[i] * distance[j];
           rows[shear] += terms[0] * shear_of_step[p];
         }
+    rows[plain_volume] = rows[volume];
+    const double scale = compliance[first];
+#pragma GCC unroll 16
+    for (unsigned int k = volume; k < strain; ++k)
+      rows[k] *= scale;
+    rows[shear] *= scale;
     sums.activate_cell(cell.cell);
     const unsigned int *vertices = grid.vertices().nodes(cell.cell);
 #pragma GCC unroll 4
@@ -145,7 +165,7 @@ namespace scree
       const Batch zero = simd::broadcast<Batch>(0.), one = simd::broadcast<Batch>(1.);
       const auto has_points = sum[volume] > 0.;
       const Batch scale     = 1. / simd::select<Batch>(has_points, sum[volume], one);
-      const Batch lack      = simd::max<Batch>(1. - 2. / full * sum[volume], zero);
+      const Batch lack      = simd::max<Batch>(1. - 2. / full * sum[plain_volume], zero);
       const Batch ridge     = least_variance + variance_of_few * lack * lack;
 
       Batch centre[dim], variance[dim * dim], inverse[dim * dim];
@@ -182,6 +202,7 @@ namespace scree
   void VolumeProjection<dim>::apply(const CellPoints<dim> &cell, const unsigned int first, BlockMotion<dim> &motion)
   {
     const unsigned int *vertices = grid.vertices().nodes(cell.cell);
+    const double modulus         = 1. / compliance[first];
     for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n) {
       const unsigned int p = first + indices[0];
       RecordPointers<const double> places;
@@ -193,9 +214,9 @@ namespace scree
       simd::load_records<dim>(places, x);
 
       const Batch zero = simd::broadcast<Batch>(0.), one = simd::broadcast<Batch>(1.);
-      const Batch own       = load(&elastic_strain[p]);
+      const Batch own       = modulus * load(&elastic_strain[p]);
       const auto has_stress = simd::first_lanes(n) & (own == own);
-      Batch projected = one, rest = zero;
+      Batch projected = simd::broadcast<Batch>(modulus), rest = zero;
       for (unsigned int v = 0; v < n_vertices; ++v)
         {
           const double *fits = sums[vertices[v]];
@@ -213,7 +234,8 @@ namespace scree
           rest += psi * excess;
         }
       const Batch change   = simd::select<Batch>(simd::first_lanes(n), load(&motion.volume_change[p]), one);
-      const Batch factor   = simd::exp<Batch>(simd::select<Batch>(has_stress, -rest, zero));
+      projected *= compliance[first];
+      const Batch factor   = simd::exp<Batch>(simd::select<Batch>(has_stress, -compliance[first] * rest, zero));
       const Batch averaged = simd::select<Batch>(has_stress, projected * factor, change);
       work += simd::select<Batch>(has_stress, load(&stress_volume[p]) * (1. - projected / change), zero);
       const Batch scale = simd::cube_root<Batch>(averaged / change);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""layers.py SCREE LAUNCHER TEST: layers that a slide takes along: the load that sets them in motion.
+"""layers.py SCREE LAUNCHER TEST: layers of several soils: the load that sets them in motion, the stress at their interfaces.
 
 Each test is a function below (case_tools.py).
 """
@@ -31,4 +31,41 @@ def threshold():
         check(abs(speed) <= 0.01 if exact == 0 else abs(speed / exact - 1) <= 0.1, f"H = {height} m: {speed} m/s, exact {exact}")
 
 
-{"threshold": threshold}[sys.argv[3]]()
+def column(name, bodies):
+    """Height (m) and fields of points that settle from no stress, of bodies {name: (region, Young's modulus)}."""
+    soil = {"Points per cell": 3, "Material": "Mohr-Coulomb", "Initial porosity": 0.4, "Mohr-Coulomb/Poisson's ratio": 0.3,
+            "Mohr-Coulomb/Friction angle": 30, "Mohr-Coulomb/Cohesion": 1e6, "Mohr-Coulomb/Dilation angle": 0}
+    case = {"Bodies": ", ".join(bodies), "End time": 0.02, "Mesh/Upper corner": "0.5, 2.5", "Mesh/Cell size": 0.25,
+            "Settling/Maximum time": 10, "Output/Interval": 0.02}
+    for body, (region, modulus) in bodies.items():
+        case |= {f"{body}/Region": region, f"{body}/Mohr-Coulomb/Young's modulus": modulus}
+        case |= {f"{body}/{entry}": value for entry, value in soil.items()}
+    points = read_points(run(name, case))
+    return points.positions[:, 1], points.arrays
+
+
+def interface():
+    """p' within a cell of an interface that lies on a face or in the middle of a cell, K0 times the weight above, is met within 17 %."""
+    for height in (1., 1.125):
+        for moduli in ((6e6, 2e6), (2e7, 2e6), (2e6, 2e7)):
+            layers = {"Low": (f"y < {height}", moduli[0]), "Up": (f"y > {height} && y < 2", moduli[1])}
+            y, arrays = column(f"column_{height}_{moduli[0]:g}_{moduli[1]:g}", layers)
+            above = np.array([arrays["mass"][y > level].sum() for level in y]) * 9.81 / 0.5
+            exact = above * (1 + 2 * 0.3 / 0.7) / 3
+            near = abs(y - height) < 0.25
+            error = np.sqrt(np.mean((arrays["mean_effective_stress"] - exact)[near] ** 2)) / np.mean(exact[near])
+            print(f"interface at {height} m, moduli {moduli}: {error:.3f}")
+            check(error <= 0.17, f"interface at {height} m, moduli {moduli}: p' differs by {error}")
+
+
+def halves():
+    """A body in two halves has the stress of the whole, within rounding."""
+    stresses = []
+    for name, bodies in (("whole", {"Soil": ("y < 2", 2e6)}), ("halves", {"Low": ("y < 1", 2e6), "Up": ("y > 1 && y < 2", 2e6)})):
+        y, arrays = column(name, bodies)
+        stresses.append(arrays["mean_effective_stress"][np.lexsort((arrays["mean_effective_stress"], y.round(6)))])
+    difference = np.abs(stresses[1] - stresses[0]).max() / stresses[0].max()
+    check(difference <= 1e-8, f"p' differs by {difference}")
+
+
+{"halves": halves, "interface": interface, "threshold": threshold}[sys.argv[3]]()

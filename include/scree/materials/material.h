@@ -90,7 +90,7 @@ namespace scree
     double largest_compression  = 0; ///< Compressive principal Kirchhoff stress, or a bound on it, Pa
     double plastic_dissipation  = 0; ///< Sum of V_0 tau : (trial - returned elastic strain), J
     double elastic_energy       = 0; ///< At the middle of the step: sum of V_0 psi - V sigma : (dF - I)/2, J
-    double averaging_work       = 0; ///< See VolumeProjection::kept_work(), J
+    double averaging_work       = 0; ///< See VolumeProjection::take_kept_work(), J
 
     // Counts; doubles hold them exactly and travel like the rest.
     double n_updates    = 0; ///< Points

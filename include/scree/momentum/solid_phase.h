@@ -52,7 +52,7 @@ namespace scree
     /// Appends the points of all bodies, then the markers of the loads.
     void append_point_sets(std::vector<PointSet<dim> *> &sets);
 
-    /// Bodies of all groups.
+    /// Bodies of all groups, rigid ones too.
     std::list<SoilBody<dim>> &all_bodies()
     {
       return bodies;
@@ -68,17 +68,11 @@ namespace scree
     NodalField<dim> field;
 
   private:
-    /// Whether the points of a body of the group move.
-    bool moves(const SoilBody<dim> &body) const
-    {
-      return body.group == group && !body.is_rigid;
-    }
-
     Transfer<dim> transfer;
     std::list<SoilBody<dim>> &bodies;
+    std::vector<SoilBody<dim> *> moving; // of the group
     std::list<SurfaceLoad<dim>> &loads;
     std::unique_ptr<NonlocalAverage<dim>> nonlocal; // null if no body's law needs it
-    const unsigned int group;
     double load_time = 0;        // s; the step's start until add_loads()
     dealii::Tensor<1, dim> load; // sum of the loads of this rank, N
   };

@@ -30,6 +30,9 @@ namespace scree
   class Transfer
   {
   public:
+    using Bodies = std::vector<SoilBody<dim> *>; ///< that move with one velocity field
+    using Report = std::function<void(const SoilBody<dim> &, const MotionReport<dim> &)>;
+
     /// Keeps a reference to the grid; copies the entries.
     Transfer(const BackgroundGrid<dim> &grid,
              const TransferParameters &transfer,
@@ -50,10 +53,12 @@ namespace scree
     /// Velocity, position, volume, F-bar, stress and state of the points at the end of a step of `time_step` s, from
     /// the nodes' end-of-step velocity and its change. The points are not sorted yet. Collective.
     /// @param damping_time of the skeleton, s; read if the points have a stress of damping
-    MotionReport<dim> to_points(SoilBody<dim> &body,
-                                const NodalField<dim> &field,
-                                const double time_step,
-                                const double damping_time = 0.);
+    /// @param report called for each body
+    void to_points(const Bodies &bodies,
+                   const NodalField<dim> &field,
+                   const double time_step,
+                   const double damping_time,
+                   const Report &report);
 
   private:
     template <int n, bool is_affine, bool is_damped>
@@ -61,8 +66,11 @@ namespace scree
 
     /// to_points() for cells of n nodes along each axis.
     template <int n, TransferMethod method>
-    MotionReport<dim>
-    move_points(SoilBody<dim> &body, const NodalField<dim> &field, const double time_step, const double damping_time);
+    void move_points(const Bodies &bodies,
+                     const NodalField<dim> &field,
+                     const double time_step,
+                     const double damping_time,
+                     const Report &report);
 
     /// Velocity, place and affine field of a cell's points; into `motion` from number `first` on what the rest needs.
     ///
@@ -100,7 +108,8 @@ namespace scree
     const FBar f_bar;
     std::unique_ptr<VolumeProjection<dim>> projection; // with FBar::projected
     SkeletonDamping<dim> damping;
-    BlockMotion<dim> motion; // of the points at hand; kept for its memory
+    BlockMotion<dim> motion;                     // of the points at hand; kept for its memory, as are the following
+    std::vector<std::pair<Block, MotionReport<dim>>> moved; // of each body
   };
 } // namespace scree
 

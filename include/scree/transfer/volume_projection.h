@@ -39,11 +39,13 @@ namespace scree
       sums.reinit();
     }
 
-    /// Empties the sums, before the points of a body.
-    void clear(const unsigned int n_points)
+    /// Empties the sums, before the points of the bodies that move together.
+    /// @param are_several with the bulk modulus of each; else it cancels out
+    void clear(const unsigned int n_points, const bool are_several)
     {
+      this->are_several = are_several;
       sums.clear();
-      for (auto *list : { &elastic_strain, &weight, &stress_volume, &shear_of_step })
+      for (auto *list : { &elastic_strain, &weight, &stress_volume, &shear_of_step, &compliance })
         list->resize(n_points + batch_size);
       work = simd::broadcast<Batch>(0.);
     }
@@ -58,11 +60,11 @@ namespace scree
     /// @param first of the cell's points in `motion`
     void apply(const CellPoints<dim> &cell, const unsigned int first, BlockMotion<dim> &motion);
 
-    /// Work of the stress on the points' own volume change less that on its average without relaxation, since clear(),
-    /// J: what the nodes have given and the points have not stored. Sum over the points of this rank.
-    double kept_work() const
+    /// Work of the stress on the points' own volume change less that on its average without relaxation, since the last
+    /// call, J: what the nodes have given and the points have not stored. Sum over the points of this rank.
+    double take_kept_work()
     {
-      return simd::sum_of_lanes(work);
+      return simd::sum_of_lanes(std::exchange(work, simd::broadcast<Batch>(0.)));
     }
 
   private:
@@ -73,7 +75,7 @@ namespace scree
     // Sums at a vertex, weighted with V psi_a: products of 1 and the distance from the vertex in cells; these times
     // ln J_e; these times dJ - 1; shear. Filled up to fours.
     static constexpr unsigned int volume = 0, strain = n_moments, change = strain + n_terms, shear = change + n_terms,
-                                  n_sums = (shear + 4) / 4 * 4;
+                                  plain_volume = shear + 1, n_sums = plain_volume / 4 * 4 + 4;
 
     // After fit(), in their place: value and slope of the linear function of dJ - 1; c_a; c_a times those of ln J_e.
     static constexpr unsigned int new_change = 0, relaxed = n_terms, new_strain = relaxed + 1,
@@ -87,7 +89,9 @@ namespace scree
     std::vector<double> weight;         // V, m^3; 0 without stress
     std::vector<double> stress_volume;  // V tr(sigma)/3, J
     std::vector<double> shear_of_step;  // gamma
-    Batch work;                         // see kept_work(), lane by lane
+    std::vector<double> compliance;     // 1/M of a cell's points, 1/Pa, where its first one is; 1 for a single body
+    Batch work;                         // see take_kept_work(), lane by lane
+    bool are_several = false;           // bodies
   };
 } // namespace scree
 

@@ -401,7 +401,7 @@ void test(const std::string &basis,
       shake_nodes(grid, body.points, field, random);
       const auto &cells   = body.points.cells();
       const auto expected = reference_step(body, cells, grid, field, method, f_bar, *one_by_one, visited);
-      transfer.to_points(body, field, time_step);
+      transfer.to_points({ &body }, field, time_step, 0., [](const auto &, const auto &) {});
       compare(cells, expected, body.layout);
       body.points.hand_over();
     }
