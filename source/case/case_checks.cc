@@ -318,12 +318,12 @@ namespace scree
     }
 
 
-    /// A water table more than a cell above all soil. Collective.
+    /// A water table more than a cell above the ground, where no free water stands. Collective.
     template <int dim>
-    void add_table_above_soil(const Parameters &parameters,
-                              const std::list<SoilBody<dim>> &bodies,
-                              const MPI_Comm communicator,
-                              std::vector<std::string> &remarks)
+    void add_table_above_ground(const Parameters &parameters,
+                                const std::list<SoilBody<dim>> &bodies,
+                                const MPI_Comm communicator,
+                                std::vector<std::string> &remarks)
     {
       const auto [entry, value] = parameters.water.place();
       if (entry.rfind("Phreatic", 0) != 0 || !parameters.water.reservoir_level.empty())
@@ -332,17 +332,45 @@ namespace scree
                             parameters.water.without_fringe().region_in_soil(dim),
                             nullptr,
                             parameters.water.without_fringe().table<dim>());
-      const auto up = parameters.grid.cell_size * dealii::Point<dim>::unit_vector(dim - 1);
-      bool is_below = true;
+      const double none        = std::numeric_limits<double>::lowest();
+      const auto &lower        = parameters.grid.lower_corner;
+      const double h           = parameters.grid.cell_size;
+      const unsigned int n     = std::ceil(parameters.grid.lengths()[0] / h);
+      const unsigned int n_all = dim == 2 ? n : n * std::ceil(parameters.grid.lengths()[1] / h);
+      std::vector<double> ground(n_all, none); // of columns of cells, m
       for (const auto &body : bodies)
-        for_each_point(body.points,
-                       [&](const auto &point) { is_below = is_below && wet.contains(point.location + up); });
-      if (dealii::Utilities::MPI::min(int(is_below), communicator) == 1)
+        for_each_point(body.points, [&](const auto &point) {
+          const Point<dim> &x       = point.location;
+          const unsigned int column = int((x[0] - lower[0]) / h) + (dim == 2 ? 0 : n * int((x[1] - lower[1]) / h));
+          ground[column]            = std::max(ground[column], x[dim - 1]);
+        });
+      Utilities::MPI::max(ground, communicator, ground);
+      double highest = h, first = -none, last = none;
+      std::string place;
+      for (unsigned int column = 0; column < n_all; ++column)
+        {
+          Point<dim> x(dim == 2 ? Point<dim>() : (lower[1] + (column / n + 0.5) * h) * Point<dim>::unit_vector(1));
+          x[0]       = lower[0] + (column % n + 0.5) * h;
+          x[dim - 1] = ground[column];
+          while (ground[column] > none && wet.contains(x + 0.25 * h * Point<dim>::unit_vector(dim - 1)))
+            x[dim - 1] += 0.25 * h;
+          const double above = x[dim - 1] - ground[column];
+          if (above <= h)
+            continue;
+          first = std::min(first, x[0] - 0.5 * h);
+          last  = std::max(last, x[0] + 0.5 * h);
+          if (above > highest)
+            place = number_text(highest = above) + " m at x = " + number_text(x[0]) +
+                    (dim == 2 ? "" : ", y = " + number_text(x[1]));
+        }
+      if (!place.empty())
         remarks.push_back("Unusual value: " +
                           entry_message({ "Water", entry, value },
-                                        "all soil lies more than a cell below it, and no water stands outside the "
-                                        "soil. Check unit (m) and datum; write a \"Reservoir level\" for water above "
-                                        "the ground."));
+                                        "it lies above the ground from x = " + number_text(first) + " to " +
+                                            number_text(last) + " m, up to " + place +
+                                            " m. No water stands outside the soil: its pores are full, and p is 0 at "
+                                            "the ground. Check unit (m) and datum; write a \"Reservoir level\" for "
+                                            "water above the ground."));
     }
   } // namespace
 
@@ -369,7 +397,7 @@ namespace scree
       {
         for (const BodyParameters &body : parameters.bodies)
           add_opening_soil(body, remarks);
-        add_table_above_soil(parameters, bodies, communicator, remarks);
+        add_table_above_ground(parameters, bodies, communicator, remarks);
       }
     return remarks;
   }

@@ -254,6 +254,52 @@ namespace scree
                                             " m. Write the same level for both where they meet, unless the reservoir "
                                             "rises suddenly."));
     }
+
+
+    /// A body with the stress of soil at rest, and nothing within a cell below any of its points. Collective.
+    template <int dim>
+    void add_hanging_body(const Parameters &parameters,
+                          const std::vector<SoilRegion> &soil,
+                          const unsigned int number,
+                          const PointSet<dim> &points,
+                          const LevelSet<dim> *ground,
+                          const MPI_Comm communicator,
+                          std::vector<std::string> &remarks)
+    {
+      const double h = parameters.grid.cell_size, bottom = parameters.grid.lower_corner[dim - 1];
+      const bool has_obstacles = std::any_of(parameters.obstacles.begin(),
+                                             parameters.obstacles.end(),
+                                             [](const auto &one) { return one.surface.is_set(); });
+      if (!parameters.bodies[number].initial_state.is_k0() || parameters.gravity[dim - 1] >= 0. || has_obstacles)
+        return;
+      std::vector<Region<dim>> others;
+      for (unsigned int i = 0; i < soil.size(); ++i)
+        if (i != number)
+          others.push_back(soil[i].template places<dim>());
+      const auto is_solid = [&](const Point<dim> &x) {
+        return x[dim - 1] < bottom || (ground != nullptr && !ground->is_open(x)) ||
+               std::any_of(others.begin(), others.end(), [&](const auto &other) { return other.contains(x); });
+      };
+      double least = std::numeric_limits<double>::max();                       // height above what is below, m
+      for (const double reach : { h, parameters.grid.lengths()[dim - 1] + h }) // The second one is rare, and long.
+        {
+          for_each_point(points, [&](const auto &point) {
+            Point<dim> below = point.location;
+            for (double height = h; height <= reach && height < least; height += 0.25 * h)
+              if (below[dim - 1] = point.location[dim - 1] - height; is_solid(below))
+                least = height;
+          });
+          least = Utilities::MPI::min(least, communicator);
+          if (least <= h)
+            return;
+        }
+      remarks.push_back("Unusual value: " +
+                        entry_message({ soil[number].name, soil[number].entry().first, soil[number].entry().second },
+                                      "nothing is within " + number_text(least - 0.25 * h) +
+                                          " m below it, and its stress is that of soil at rest. Check its "
+                                          "coordinates and \"Lower corner\" in subsection Mesh; for soil that "
+                                          "falls write \"Type = none\" in subsection Initial state."));
+    }
   } // namespace
 
 
@@ -277,6 +323,7 @@ namespace scree
       {
         const SeedingParameters &seeding = parameters.bodies[i].seeding;
         const double volume              = volume_of(body->points, body->layout.volume);
+        add_hanging_body(parameters, soil, i, body->points, ground, communicator, remarks);
         if (!seeding.has_expression()) // Maps are checked when they are read.
           continue;
         add_cut_region<dim>(parameters,

@@ -406,11 +406,20 @@ namespace scree
     constexpr double largest_gap     = 0.5;  // area, in cells
     using Geometry                   = std::unique_ptr<OGRGeometry>;
     const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
-    const auto area_of = [](const Geometry &one) { return OGR_G_Area(OGRGeometry::ToHandle(one.get())); };
-    const auto text_of = [&](const Geometry &one) {
+    const auto area_of  = [](const Geometry &one) { return OGR_G_Area(OGRGeometry::ToHandle(one.get())); };
+    const auto place_in = [](const Geometry &one) {
       const Geometry place(OGRGeometry::FromHandle(OGR_G_PointOnSurface(OGRGeometry::ToHandle(one.get()))));
-      return number_text(area_of(one)) + " m^2, for instance at " +
-             number_text({ place->toPoint()->getX(), place->toPoint()->getY() }) + " m";
+      return number_text({ place->toPoint()->getX(), place->toPoint()->getY() }) + " m";
+    };
+    // The width is how far the edge can move inwards. Slivers beside a gap, at corners, are not in its wide part.
+    const auto widest_part = [&](const Geometry &gap) {
+      const double digit = 1e-3 * cell_size;
+      double half_width  = 0.;
+      for (double step = cell_size / 4; step > 0.1 * digit; step /= 2)
+        if (const Geometry part(gap->Buffer(-half_width - step)); part && !part->IsEmpty())
+          half_width += step;
+      return number_text(digit * std::round(2 * half_width / digit)) + " m wide, for instance at " +
+             place_in(Geometry(gap->Buffer(-0.9 * half_width)));
     };
     std::vector<std::string> remarks, used = others;
     std::vector<std::shared_ptr<OGRMultiPolygon>> drawn;
@@ -426,7 +435,8 @@ namespace scree
               wide && !wide->IsEmpty())
             throw EntryError(entry_message(entry,
                                            "it overlaps the layer " + scree::quoted(bodies[i].value) + " of " +
-                                               bodies[i].subsection + " on " + text_of(common) +
+                                               bodies[i].subsection + " on " + number_text(area_of(common)) +
+                                               " m^2, for instance at " + place_in(common) +
                                                ". Leave the place to one of them."));
       }
     // What is filled if all grow by half a cell and shrink again is a gap if two layers are at it, or else a corner.
@@ -437,8 +447,9 @@ namespace scree
                                              std::count_if(drawn.begin(), drawn.end(), [&](const auto &layer) {
                                                return layer->Distance(gap.get()) < 1e-3 * cell_size;
                                              }) > 1)
-        remarks.push_back("Unusual value: " + name + "a gap between its layers has " + text_of(gap) +
-                          ". No body is there; draw the layers up to each other if that is not meant.");
+        remarks.push_back("Unusual value: " + name + "a gap between its layers is up to " + widest_part(gap) +
+                          ", and has " + number_text(area_of(gap)) +
+                          " m^2. No body is there; draw the layers up to each other if that is not meant.");
     std::vector<std::string> areas, lines; // layers with them that are not used; texts do not count
     for (const auto &[layer, shapes] : layers)
       if (std::find(used.begin(), used.end(), layer) == used.end())

@@ -15,6 +15,7 @@ namespace scree
     constexpr double least_change   = 0.1;    // of the cell size: less is no deposit of a column
     constexpr double part_of_height = 0.0125; // of all soil: what has moved by more, horizontally, has failed
     constexpr double part_of_mass   = 0.99;   // of failed soil, behind the toe and in front of the scarp
+    constexpr double least_run      = 0.1;    // of L, of the toe: after less, H/L is that before the motion
     constexpr double steepest_wall  = 0.5;    // cosine of the slope: steeper ground is a wall beside the soil
 
     /// Length normal to the ground over that along the last axis.
@@ -219,12 +220,14 @@ namespace scree
                      " m/s; at rest below " + short_text(rest_speed()) + " m/s (0.004 sqrt(g H))");
     if (last.failed_mass == 0.)
       return lines;
+    const bool has_run = last.toe_displacement >= least_run * last.length;
     lines +=
         '\n' + in_lines("Run-out",
                         (is_at_rest() ? "" : "so far: ") + ("H = " + short_text(last.fall)) +
                             " m, L = " + short_text(last.length) + " m, H/L = " + short_text(last.ratio) +
-                            ", travel angle " + short_text(last.travel_angle) + " degrees; the toe has moved " +
-                            short_text(last.toe_displacement) + " m, the soil at most " +
+                            (has_run ? ", travel angle " + short_text(last.travel_angle) + " degrees"
+                                     : " of the slope itself") +
+                            "; the toe has moved " + short_text(last.toe_displacement) + " m, the soil at most " +
                             short_text(last.largest_displacement) + " m; deposit " + short_text(last.area) +
                             (dim == 2 ? " m, " : " m^2, ") + short_text(last.volume) + (dim == 2 ? " m^3/m" : " m^3"));
     double all        = 0.;

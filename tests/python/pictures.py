@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 from scree import render  # noqa: E402
-from scree.pictures import fields, panels, paraview, plane, rigid  # noqa: E402
+from scree.pictures import fields, panels, paraview, plane, rigid, scene  # noqa: E402
 from scree.results import Box, Points  # noqa: E402
 
 CELL = 0.1
@@ -103,6 +103,17 @@ def check_default_field():
             assert render.default_field("run", "points") == field, field
 
 
+def check_stages(run):
+    """What stages remove is where soil is then, by expressions and by layers with holes; what they add is where none is."""
+    (run / "drawing.csv").write_text("name,x,y\n" + "".join(f"pit,{x},{y}\n" for ring in (((1, 0), (3, 0), (3, 2), (1, 2), (1, 0)), ((1.5, 0.5), (2, 0.5), (2, 1), (1.5, 1)))
+                                                           for x, y in ring), encoding="utf-8")
+    entries = {"Drawing": "drawing.csv", "Stage Dig/Remove": "y > 0.5 && x < 1", "Stage Pit/Remove layer": "pit", "Stage Lay/Add": "Fill", "Fill/Region": "y > 0.5 && y < 2 && x < 1",
+               "Stage Odd/Remove": "x < 1 ? 1 : 0", "Stage Last/Remove": "x < 1"}
+    places = np.meshgrid((np.arange(80) + 0.5) / 20, (np.arange(40) + 0.5) / 20)
+    found = {label: (is_added, np.sum(mask) / 400) for label, is_added, mask in scene.stage_areas(run, entries, places, places[1] < 1)}
+    assert found == {"Dig: removed": (False, 0.5), "Pit: removed": (False, 1.75), "Lay: Fill": (True, 1.5), "Last: removed": (False, 2.)}, found
+
+
 def check_paraview(run):
     """The ground beside the script for ParaView is that of the bed, in the coordinates of the points."""
     import vtk  # pylint: disable=import-outside-toplevel
@@ -124,15 +135,15 @@ def check_space(run):
     (run / "parameters.prm").write_text("subsection Bed\n  set Type = fixed\n  set Level set expression = z - 0.05*x\nend\n", encoding="utf-8")
     points = lattice(3)
     with contextlib.ExitStack() as stack:
-        scene = space.Scene(run, box(3), box(3), space.view_along(box(3), [points]), stack, 300)
-        image = scene.image(points, np.tile([1., 0., 0., 1.], (len(points.positions), 1))).astype(int)
-        empty = scene.image(points._replace(positions=np.zeros((0, 3)), arrays={}), np.zeros((0, 4))).astype(int)
+        view = space.Scene(run, box(3), box(3), space.view_along(box(3), [points]), stack, 300)
+        image = view.image(points, np.tile([1., 0., 0., 1.], (len(points.positions), 1))).astype(int)
+        empty = view.image(points._replace(positions=np.zeros((0, 3)), arrays={}), np.zeros((0, 4))).astype(int)
     is_red = image[..., 0] - image[..., 1] > 60
     assert 0.03 < np.mean(is_red) < 0.4, np.mean(is_red)
     assert np.mean(np.all(image == 255, axis=2)) > 0.2
     is_ground = (np.ptp(empty, axis=2) < 60) & (empty[..., 0] < 240)
     assert np.mean(is_ground) > 0.2, np.mean(is_ground)
-    column, row = scene.camera.pixel([0.5, 0.5, 1.])
+    column, row = view.camera.pixel([0.5, 0.5, 1.])
     assert is_red[int(row), int(column)], "the middle of the top of the block is elsewhere"
 
 
@@ -144,6 +155,7 @@ def main():
     check_ground(run)
     check_title(run)
     check_default_field()
+    check_stages(run)
     check_paraview(run)
     if shutil.which("Xvfb"):
         check_space(run)

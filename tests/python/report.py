@@ -4,6 +4,7 @@
 import html.parser
 import pathlib
 import shutil
+from unittest import mock
 
 from scree import report, results
 
@@ -118,6 +119,20 @@ def test_stages():
     for wanted in ("<b>Removed</b> soil 100 kg/m", "<b>Settled</b> for 1.7 s", "<b>Settling</b> displacement while settling 0.1 m", "<b>Motion</b> at rest at the end"):
         assert wanted in said, said
     assert "step 1000" not in said, said
+    # The first picture of a stage has the time of the last one before.
+    solution = pathlib.Path("run", "solution")
+    solution.mkdir(exist_ok=True)
+    files = "".join(f'<DataSet timestep="{time}" file="{number}.vtu"/>' for number, time in enumerate(("0", "1", "1", "1", "1.5", "2")))
+    (solution / "points.pvd").write_text(f"<VTKFile><Collection>{files}</Collection></VTKFile>", encoding="utf-8")
+    assert [file.name for _, file in sorted(results._pictures("run", "points").items())] == [f"{number}.vtu" for number in range(6)]
+    with mock.patch.object(report, "draw", side_effect=lambda run, module, arguments, folder: {",".join(arguments): b""}) as draw, \
+            mock.patch.object(results, "read_points", return_value=results.Points(2., None, {})):
+        text = report.page("run")
+    shown = [call.args[2] for call in draw.call_args_list if "--times" in call.args[2]]
+    times = [[float(time) for time in arguments[-1].split(",")] for arguments in shown]
+    assert len(times) == 2 and 1 - 1e-12 < times[0][0] == times[0][1] < times[1][0] == 1. and times[1][1] == 2., shown
+    assert shown[0][:-1] == ["--collection", "points", "--field", "displacement", "--times"] and "Lift &lt;2&gt;: at its release" in text
+    shutil.rmtree(solution)
 
 
 def test_safety():

@@ -95,16 +95,26 @@ def _last_time(run):
     return f"the last row of statistics is at t = {times[-1]:g} s, the end time is {end} s" if len(times) else "there are no statistics"
 
 
-def stages(log):
-    """What the log says of each stage: what was removed or added, how it settled, its motion and checks beyond their bounds."""
-    parts = []
-    for block in re.split(r"^Stage +", log.text, flags=re.MULTILINE)[1:]:
+def band(run):
+    """The field that shows where soil shears, as --field for a run folder."""
+    name = "plastic_shear_strain"
+    return ["--field", name if name in results.read_points(run).arrays else "displacement"]
+
+
+def stages(run, log, folder):
+    """What the log says of each stage: what was removed or added, how it settled, its motion and checks beyond their bounds; with pictures of it."""
+    parts, times = [], results.times_of_stages(run) if (run / "solution" / "points.pvd").exists() else []
+    for number, block in enumerate(re.split(r"^Stage +", log.text, flags=re.MULTILINE)[1:]):
         title, text = block.split("\n", 1)
         joined = re.sub(r"\n {12}(?=\S)", " ", text)  # lines that go on
         lines = re.findall(r"^(Removed|Added|Settled|Settling:|Check:|Motion|Run-out) +(.*)$", joined, re.MULTILINE)
         said = "\n".join(f'<div class="{"bad" if label == "Check:" else "good"}"><b>{label.rstrip(":")}</b> {html.escape(line)}</div>'
                          for label, line in lines if not re.match(r"\S+ s, step ", line))  # of its progress
         parts.append(f"<h3>{html.escape(title)}</h3>\n{said}")
+        if number < len(times):
+            shown = ",".join(map(repr, map(float, times[number])))
+            caption = title.split(",")[0] + ": at its release and at its end"
+            parts.append(_figures(run, [(caption, "render", ["--collection", "points", *band(run), "--times", shown])], folder, []))
     return "\n".join(parts)
 
 
@@ -251,13 +261,12 @@ def page(run, field=None, times=None):
         drawn = {section: _figures(run, commands, folder, charts) for section, commands in picture_commands(run, field, times).items()}
         for trial in ("fails", "rests") if safety else ():
             if (safety / trial / "solution" / "points.pvd").exists():
-                band = "plastic_shear_strain"
-                shown = band if band in results.read_points(safety / trial).arrays else "displacement"
-                trials.append(_figures(safety / trial, [(f"The slope {trial}", "render", ["--collection", "points", "--field", shown])], folder, []))
+                trials.append(_figures(safety / trial, [(f"The slope {trial}", "render", ["--collection", "points", *band(safety / trial)])], folder, []))
+        of_stages = stages(run, log, folder)
     sections = [
         ("safety", "Factor of safety", factor_of_safety(safety) + "\n".join(trials) if safety else ""),
         ("verdict", "Verdict", verdict(run, log) if case == run else ""),
-        ("stages", "Stages", stages(log)),
+        ("stages", "Stages", of_stages),
         ("warnings", "Warnings", warnings(log)),
         ("run", "Run", table(identity(run, log))),
         ("maps", "Maps", drawn["maps"]),

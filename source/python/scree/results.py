@@ -62,6 +62,13 @@ def read_times(run, collection="points"):
     return np.array(sorted(_pictures(run, collection)))
 
 
+def times_of_stages(run):
+    """The times of the first and the last picture of each stage of a run folder, s: the first is that of its release."""
+    times = read_times(run)
+    starts = np.flatnonzero(np.diff(times) <= 1e-12 * times[1:]) + 1
+    return [(times[start], times[end - 1]) for start, end in zip(starts, [*starts[1:], len(times)])]
+
+
 def pictures_at(run, times, collection="points"):
     """The times of the pictures at `times`, s, to a millionth of the run. Throws a ValueError that lists those there are if one is missing."""
     available = read_times(run, collection)
@@ -216,7 +223,12 @@ def _pictures(run, collection):
     if not pvd.exists():
         raise FileNotFoundError(f"{pvd} is not there: is {run} a run folder, and has the run written a picture?")
     sets = _xml(pvd).iter("DataSet")
-    pictures = {float(data_set.get("timestep")): pvd.parent / data_set.get("file") for data_set in sets}
+    pictures = {}
+    for data_set in reversed(list(sets)):
+        time = float(data_set.get("timestep"))
+        while time in pictures:  # A stage begins at the time at which the one before ends, which is that of its picture by a digit less.
+            time = np.nextafter(time, -np.inf)
+        pictures[time] = pvd.parent / data_set.get("file")
     if not pictures:
         raise ValueError(f"{pvd} lists no picture.")
     return pictures
@@ -263,7 +275,7 @@ def _read_piece(path):
 
 
 def _gdal():
-    """Only maps need it."""
+    """Only maps and drawings need it."""
     from osgeo import gdal  # pylint: disable=import-outside-toplevel
     gdal.UseExceptions()
     return gdal
@@ -294,6 +306,34 @@ def read_raster(path):
     is_valid &= (np.abs(values) < 1e30) & ~(np.abs(values - missing) <= 1e-7 * abs(missing))
     values = np.where(is_valid, (band.GetScale() or 1.) * values + (band.GetOffset() or 0.), np.nan)
     return Raster(values, x, y + height * len(values), width) if height < 0 else Raster(values[::-1], x, y, width)
+
+
+def _rings(shape):
+    """The corners of all rings and lines of a geometry of GDAL."""
+    parts = [shape.GetGeometryRef(i) for i in range(shape.GetGeometryCount())]
+    return [ring for part in parts for ring in _rings(part)] if parts else [tuple(corner[:2] for corner in shape.GetPoints())]
+
+
+def read_layer(drawing, layer):
+    """The areas of a layer of a drawing as lists of rings, by the rules of source/geometry/drawing.cc: a place is in an area if it is in an odd number of them."""
+    areas, lines, row = [], set(), []  # lines are holes in each other; of a table a row of corners
+    data = _gdal().OpenEx(str(drawing))
+    for source in (data.GetLayer(i) for i in range(data.GetLayerCount())):
+        for feature in source:
+            texts = {key.lower(): value for key, value in feature.items().items()}
+            if (texts.get("name") or texts.get("layer") or source.GetName()) != layer:
+                continue
+            shape = feature.GetGeometryRef()
+            if shape is None:
+                row.append((float(texts["x"]), float(texts["y"])))
+                if len(row) > 2 and row[0] == row[-1]:
+                    lines, row = lines | {tuple(row)}, []
+            elif "LINE" in shape.GetLinearGeometry().GetGeometryName():
+                lines |= set(_rings(shape.GetLinearGeometry()))
+            else:
+                areas.append(_rings(shape.GetLinearGeometry()))
+    lines |= {tuple(row)} if row else set()
+    return areas + ([list(lines)] if lines else [])
 
 
 def write_map(path, raster, like):

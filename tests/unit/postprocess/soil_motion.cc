@@ -88,6 +88,21 @@ void test_path()
 }
 
 
+/// The log has a travel angle only where the toe has moved by a tenth of L.
+template <int dim>
+void test_text()
+{
+  for (const double way : { 0.02, 0.25 })
+    {
+      Bank<dim> bank(0, false);
+      bank.look();
+      bank.move(0.3, 0.6, way, 0.);
+      bank.look();
+      expect(bank.motion.text().find("angle") != std::string::npos, way > 0.1, 0., "travel angle in the log");
+    }
+}
+
+
 /// Soil that spreads to both sides has its toe at the side where more of it moves.
 template <int dim>
 void test_spread()
@@ -114,6 +129,7 @@ template <int dim>
 void test()
 {
   test_path<dim>();
+  test_text<dim>();
   test_spread<dim>();
 }
 

@@ -146,7 +146,7 @@ def render_points(run, output, name, times=None, limits=None, collection="points
     box = results.read_box(run)
     if times is None:
         available = results.read_times(run, collection)
-        times = available[np.searchsorted(available, available[0] + np.array([0, 0.25, 0.5, 1]) * np.ptp(available) * (1 - 1e-9))]
+        times = [*available[np.searchsorted(available, available[0] + np.array([0, 0.25, 0.5]) * np.ptp(available) * (1 - 1e-9))], available[-1]]
     else:
         times = results.pictures_at(run, times, collection)
     pictures = _pictures(run, times, collection)
@@ -216,7 +216,7 @@ def animate_points(run, outputs, name, times=None, limits=None, collection="poin
             panel.clear()
             drawing.draw(panel, results.read_points(run, time, collection), True)
             # Numbers of one width: the title stands still.
-            panel.set_title(f"t = {time:.{_decimals(frames)}f} s", fontsize="medium")
+            panel.set_title(f"t = {time:.{_decimals(np.unique(np.round(frames, 9)))}f} s", fontsize="medium")
             if number == 0:
                 figure.canvas.draw()
                 figure.set_layout_engine("none")  # the panel stands still, too

@@ -4,14 +4,17 @@
 import contextlib
 import pathlib
 import re
+import sys
 
 import matplotlib.colors
 import matplotlib.patches
+import matplotlib.patheffects
+import matplotlib.path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from scree import results, variants
-from scree.pictures import panels, rigid
+from scree import expressions, results, variants
+from scree.pictures import panels, plane, rigid
 
 LOAD, PROBE = "#c0202a", "#7b2d8b"
 WALL_STYLES = {"fixed": "-", "free slip": "--", "open": ":"}  # others, such as friction, have dots and dashes
@@ -60,6 +63,49 @@ def _draw_loads_and_probes(axes, box, entries):
             axes.annotate(name.strip(), ends[-1] - [0, 0.06 * (kind == "Verticals") * (box.upper[1] - box.lower[1])], color=PROBE, **label)
 
 
+def _in_layer(drawing, layer, places):
+    """Which places are in the areas of a layer."""
+    corners, is_in = np.column_stack([place.ravel() for place in places]), np.zeros(places[0].size, bool)
+    for rings in results.read_layer(drawing, layer):
+        is_in |= np.bitwise_xor.reduce([matplotlib.path.Path(ring).contains_points(corners) for ring in rings])
+    return is_in.reshape(places[0].shape)
+
+
+def stage_areas(run, entries, places, is_soil):
+    """Yields what stages remove from soil and add to it as (label, whether it is added, which places)."""
+    for stage in dict.fromkeys(key.split("/")[0] for key in entries if key.startswith("Stage ")):
+        parts = [("", stage, "Remove", "Remove layer")] + [(name.strip(), name.strip(), "Region", "Layer") for name in entries.get(f"{stage}/Add", "").split(",") if name.strip()]
+        for body, subsection, expression, layer in parts:
+            text, name = (entries.get(f"{subsection}/{entry}", "") for entry in (expression, layer))
+            if not text and not name:
+                continue
+            try:
+                mask = _in_layer(pathlib.Path(run) / entries["Drawing"], name, places) if name else np.broadcast_to(
+                    expressions.evaluate(text, **dict(zip("xy", places))) != 0, is_soil.shape)
+            except (RuntimeError, ValueError, KeyError) as error:
+                print(f"scree-render: subsection {subsection} is not drawn: {error}.", file=sys.stderr)
+                continue
+            mask = mask & (is_soil != bool(body))
+            is_soil = is_soil != mask
+            yield stage.removeprefix("Stage ") + (f": {body}" if body else ": removed"), bool(body), mask
+
+
+def _draw_stages(axes, run, box, entries, first):
+    """What is removed with dashes, what is added with hatches, each with the name of its stage."""
+    panel = plane.panel_of(axes, box, run, first.time)
+    is_soil = plane.fill(first, box, panel.pixels, panel.is_open) > 0.5
+    for label, is_added, mask in stage_areas(run, entries, np.meshgrid(*panel.pixels.centres), is_soil):
+        mask &= panel.is_open
+        if not mask.any():
+            continue
+        if is_added:
+            axes.contourf(*panel.pixels.centres, mask, levels=[0.5, 1.5], colors="none", hatches=["//"], zorder=6)
+        axes.contour(*panel.pixels.centres, mask, levels=[0.5], colors="0.1", linewidths=1.4, linestyles="-" if is_added else "--", zorder=6)
+        row, column = np.argwhere(mask)[np.argmin(np.linalg.norm(np.argwhere(mask) - np.argwhere(mask).mean(axis=0), axis=1))]
+        axes.text(panel.pixels.centres[0][column], panel.pixels.centres[1][row], label, ha="center", va="center", fontsize="x-small", zorder=9,
+                  path_effects=[matplotlib.patheffects.withStroke(linewidth=2, foreground="white")])
+
+
 def bodies(entries):
     """The bodies in the order of their numbers at the points: those that stages add come last."""
     names = [name.strip() for name in entries.get("Bodies", "Soil").split(",") if name.strip() not in ("", "none")]
@@ -89,6 +135,7 @@ def render_scene(run, output, view=None):
         if is_plane:
             _draw_walls(axes, box, entries)
             _draw_loads_and_probes(axes, box, entries)
+            _draw_stages(axes, run, box, entries, first)
         patches = [matplotlib.patches.Patch(facecolor="0.45" if number in rigid.rigid_bodies(run) else colours[number], edgecolor="0.3",
                                             label=f"{names[number]} ({entries.get(names[number] + '/Material', 'Mohr-Coulomb')})") for number in shown]
         if patches:
