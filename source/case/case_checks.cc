@@ -352,7 +352,8 @@ namespace scree
           Point<dim> x(dim == 2 ? Point<dim>() : (lower[1] + (column / n + 0.5) * h) * Point<dim>::unit_vector(1));
           x[0]       = lower[0] + (column % n + 0.5) * h;
           x[dim - 1] = ground[column];
-          while (ground[column] > none && wet.contains(x + 0.25 * h * Point<dim>::unit_vector(dim - 1)))
+          const double top = ground[column] > none ? lower[dim - 1] + parameters.grid.lengths()[dim - 1] : none;
+          while (x[dim - 1] < top && wet.contains(x + 0.25 * h * Point<dim>::unit_vector(dim - 1)))
             x[dim - 1] += 0.25 * h;
           const double above = x[dim - 1] - ground[column];
           if (above <= h)
