@@ -350,8 +350,8 @@ namespace scree
       for (unsigned int column = 0; column < n_all; ++column)
         {
           Point<dim> x(dim == 2 ? Point<dim>() : (lower[1] + (column / n + 0.5) * h) * Point<dim>::unit_vector(1));
-          x[0]       = lower[0] + (column % n + 0.5) * h;
-          x[dim - 1] = ground[column];
+          x[0]             = lower[0] + (column % n + 0.5) * h;
+          x[dim - 1]       = ground[column];
           const double top = ground[column] > none ? lower[dim - 1] + parameters.grid.lengths()[dim - 1] : none;
           while (x[dim - 1] < top && wet.contains(x + 0.25 * h * Point<dim>::unit_vector(dim - 1)))
             x[dim - 1] += 0.25 * h;

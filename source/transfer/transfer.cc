@@ -202,9 +202,11 @@ namespace scree
         auto &[cells, motion_of_body] = moved[b];
         if (projection)
           {
+            projection->fit_changes(cells, motion);
             for_each_block(cells, [&](const Block &block) {
-              block.for_each_cell(
-                  [&](const CellPoints<dim> &cell, const unsigned int first) { projection->apply(cell, first, motion); });
+              block.for_each_cell([&](const CellPoints<dim> &cell, const unsigned int first) {
+                projection->apply(cell, first, motion);
+              });
               update_state(*bodies[b], block, time_step, damping_time, motion_of_body.material);
             });
             motion_of_body.material.averaging_work += projection->take_kept_work();
@@ -275,8 +277,8 @@ namespace scree
                                 const Report &report)
   {
     with_nodes_1d(grid, [&](auto n) {
-      with_method(
-          method, [&](auto of_points) { move_points<n, of_points>(bodies, field, time_step, damping_time, report); });
+      with_method(method,
+                  [&](auto of_points) { move_points<n, of_points>(bodies, field, time_step, damping_time, report); });
     });
   }
 

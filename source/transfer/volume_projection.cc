@@ -86,14 +86,28 @@ namespace scree
           const double bulk = body.material->initial_bulk_modulus(volume > 0 ? std::max(pressure / volume, 0.) : 0.);
           compliance[first] = 1. / (bulk + 4. / 3. * body.material->shear_modulus);
         }
-      add_cell(cell, first, motion);
+      add_cell(cell, first, motion, shared);
     });
   }
 
 
   template <int dim>
-  void
-  VolumeProjection<dim>::add_cell(const CellPoints<dim> &cell, const unsigned int first, const BlockMotion<dim> &motion)
+  void VolumeProjection<dim>::fit_changes(const CellBlock<dim> &cells, const BlockMotion<dim> &motion)
+  {
+    if (!are_several)
+      return;
+    own.clear();
+    cells.for_each_cell(
+        [&](const CellPoints<dim> &cell, const unsigned int first) { add_cell(cell, first, motion, own); });
+    fit(own);
+  }
+
+
+  template <int dim>
+  void VolumeProjection<dim>::add_cell(const CellPoints<dim> &cell,
+                                       const unsigned int first,
+                                       const BlockMotion<dim> &motion,
+                                       Sums &sums)
   {
     std::array<VertexRow<dim>, n_sums> rows;
 #pragma GCC unroll 16 // here and below, so that the rows are registers
@@ -146,7 +160,7 @@ namespace scree
 
 
   template <int dim>
-  void VolumeProjection<dim>::fit()
+  void VolumeProjection<dim>::fit(Sums &sums)
   {
     sums.add_contributions();
     const double cell_volume = Utilities::fixed_power<dim>(grid.cell_size());
@@ -202,6 +216,7 @@ namespace scree
   void VolumeProjection<dim>::apply(const CellPoints<dim> &cell, const unsigned int first, BlockMotion<dim> &motion)
   {
     const unsigned int *vertices = grid.vertices().nodes(cell.cell);
+    const Sums &changes          = are_several ? own : shared;
     const double modulus         = 1. / compliance[first];
     for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n) {
       const unsigned int p = first + indices[0];
@@ -214,26 +229,26 @@ namespace scree
       simd::load_records<dim>(places, x);
 
       const Batch zero = simd::broadcast<Batch>(0.), one = simd::broadcast<Batch>(1.);
-      const Batch own       = modulus * load(&elastic_strain[p]);
-      const auto has_stress = simd::first_lanes(n) & (own == own);
+      const Batch strain_of_own = modulus * load(&elastic_strain[p]);
+      const auto has_stress     = simd::first_lanes(n) & (strain_of_own == strain_of_own);
       Batch projected = simd::broadcast<Batch>(modulus), rest = zero;
       for (unsigned int v = 0; v < n_vertices; ++v)
         {
-          const double *fits = sums[vertices[v]];
-          Batch psi = one, value = simd::broadcast<Batch>(fits[new_change]),
-                excess = fits[relaxed] * own - fits[new_strain];
+          const double *of_change = &changes[vertices[v]][new_change], *of_strain = &shared[vertices[v]][relaxed];
+          Batch psi = one, value = simd::broadcast<Batch>(of_change[0]),
+                excess = of_strain[0] * strain_of_own - of_strain[1];
           for (unsigned int a = 0; a < dim; ++a)
             {
               const bool is_upper  = v >> a & 1;
               const Batch distance = is_upper ? x[a] - 1. : x[a];
               psi *= is_upper ? x[a] : 1. - x[a];
-              value += fits[new_change + 1 + a] * distance;
-              excess -= fits[new_strain + 1 + a] * distance;
+              value += of_change[1 + a] * distance;
+              excess -= of_strain[2 + a] * distance;
             }
           projected += psi * value;
           rest += psi * excess;
         }
-      const Batch change   = simd::select<Batch>(simd::first_lanes(n), load(&motion.volume_change[p]), one);
+      const Batch change = simd::select<Batch>(simd::first_lanes(n), load(&motion.volume_change[p]), one);
       projected *= compliance[first];
       const Batch factor   = simd::exp<Batch>(simd::select<Batch>(has_stress, -compliance[first] * rest, zero));
       const Batch averaged = simd::select<Batch>(has_stress, projected * factor, change);

@@ -73,8 +73,8 @@ namespace scree
     std::vector<SoilBody<dim> *> moving; // of the group
     std::list<SurfaceLoad<dim>> &loads;
     std::unique_ptr<NonlocalAverage<dim>> nonlocal; // null if no body's law needs it
-    double load_time = 0;        // s; the step's start until add_loads()
-    dealii::Tensor<1, dim> load; // sum of the loads of this rank, N
+    double load_time = 0;                           // s; the step's start until add_loads()
+    dealii::Tensor<1, dim> load;                    // sum of the loads of this rank, N
   };
 } // namespace scree
 

@@ -108,7 +108,7 @@ namespace scree
     const FBar f_bar;
     std::unique_ptr<VolumeProjection<dim>> projection; // with FBar::projected
     SkeletonDamping<dim> damping;
-    BlockMotion<dim> motion;                     // of the points at hand; kept for its memory, as are the following
+    BlockMotion<dim> motion; // of the points at hand; kept for its memory, as are the following
     std::vector<std::pair<Block, MotionReport<dim>>> moved; // of each body
   };
 } // namespace scree

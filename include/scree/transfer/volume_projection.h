@@ -29,22 +29,24 @@ namespace scree
     /// Keeps a reference to the grid.
     explicit VolumeProjection(const BackgroundGrid<dim> &grid)
         : grid(grid)
-        , sums(grid.vertices())
+        , shared(grid.vertices())
+        , own(grid.vertices())
     {
     }
 
     /// Fits the sums to the grid's current vertices. Collective.
     void reinit()
     {
-      sums.reinit();
+      shared.reinit();
+      own.reinit();
     }
 
     /// Empties the sums, before the points of the bodies that move together.
-    /// @param are_several with the bulk modulus of each; else it cancels out
+    /// @param are_several whether they are several, so that the modulus does not cancel out
     void clear(const unsigned int n_points, const bool are_several)
     {
       this->are_several = are_several;
-      sums.clear();
+      shared.clear();
       for (auto *list : { &elastic_strain, &weight, &stress_volume, &shear_of_step, &compliance })
         list->resize(n_points + batch_size);
       work = simd::broadcast<Batch>(0.);
@@ -54,7 +56,13 @@ namespace scree
     void add(const SoilBody<dim> &body, const CellBlock<dim> &block, const BlockMotion<dim> &motion);
 
     /// Fits the linear functions to the sums of all ranks. Collective.
-    void fit();
+    void fit()
+    {
+      fit(shared);
+    }
+
+    /// Before apply() on the points of a body, all its cells: fits the functions of its volume change. Collective.
+    void fit_changes(const CellBlock<dim> &cells, const BlockMotion<dim> &motion);
 
     /// Sets dJ of the points of a cell and scales their dF.
     /// @param first of the cell's points in `motion`
@@ -68,8 +76,6 @@ namespace scree
     }
 
   private:
-    void add_cell(const CellPoints<dim> &cell, const unsigned int first, const BlockMotion<dim> &motion);
-
     static constexpr unsigned int n_vertices = 1 << dim, n_terms = 1 + dim, n_moments = n_terms * (n_terms + 1) / 2;
 
     // Sums at a vertex, weighted with V psi_a: products of 1 and the distance from the vertex in cells; these times
@@ -81,8 +87,14 @@ namespace scree
     static constexpr unsigned int new_change = 0, relaxed = n_terms, new_strain = relaxed + 1,
                                   n_fits = new_strain + n_terms;
 
+    using Sums = NodeValues<dim, n_sums>;
+
+    void add_cell(const CellPoints<dim> &cell, const unsigned int first, const BlockMotion<dim> &motion, Sums &sums);
+
+    void fit(Sums &sums);
+
     const BackgroundGrid<dim> &grid;
-    NodeValues<dim, n_sums> sums;
+    Sums shared, own; // of all bodies; of the body at hand, if they are several
 
     // Of the points, as in BlockMotion
     std::vector<double> elastic_strain; // ln J_e at the start of the step; not a number without stress
