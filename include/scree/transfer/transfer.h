@@ -31,7 +31,7 @@ namespace scree
   {
   public:
     using Bodies = std::vector<SoilBody<dim> *>; ///< that move with one velocity field
-    using Report = std::function<void(const SoilBody<dim> &, const MotionReport<dim> &)>;
+    using Report = std::function<void(const SoilBody<dim> &, const MotionReport<dim> &)>; ///< of one of them
 
     /// Keeps a reference to the grid; copies the entries.
     Transfer(const BackgroundGrid<dim> &grid,

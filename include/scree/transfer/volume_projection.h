@@ -19,6 +19,9 @@ namespace scree
   /// of the step. So elastic volume strain relaxes to what linear functions carry, as far as the soil shears. The
   /// volume of a point changes by dJ_p, and V/J_e stays that of the point.
   ///
+  /// m_a is of the points of one body. l_a is of all bodies that move together, one pressure divided by the modulus M
+  /// of waves of each: in place of ln J_e it fits M ln J_e, with the weights V psi_a/M.
+  ///
   /// sum V dJ is that of the own dJ but for terms of r, sum V r is 0, a linear ln J_e passes but for a ridge, and the
   /// stored energy does not grow by relaxation (doc/theory/single_phase.md). Points without stress (separated grains)
   /// keep their own dJ and take no part.
