@@ -11,7 +11,9 @@
 #include <scree/transfer/transfer_parameters.h>
 #include <scree/transfer/volume_projection.h>
 
+#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace scree

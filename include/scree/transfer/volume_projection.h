@@ -7,6 +7,9 @@
 #include <scree/mesh/node_values.h>
 #include <scree/transfer/f_bar.h>
 
+#include <utility>
+#include <vector>
+
 namespace scree
 {
   /// Volume change of the points under stress in the space of the pore pressure, the linear functions psi_a of the
@@ -81,8 +84,8 @@ namespace scree
   private:
     static constexpr unsigned int n_vertices = 1 << dim, n_terms = 1 + dim, n_moments = n_terms * (n_terms + 1) / 2;
 
-    // Sums at a vertex, weighted with V psi_a: products of 1 and the distance from the vertex in cells; these times
-    // ln J_e; these times dJ - 1; shear. Filled up to fours.
+    // Sums at a vertex: products of 1 and the distance from it in cells (weights V psi_a/M); these two times ln J_e and
+    // times dJ - 1 (V psi_a: for the fit of M ln J_e and M (dJ - 1)); shear (V psi_a/M); V psi_a. Filled up to fours.
     static constexpr unsigned int volume = 0, strain = n_moments, change = strain + n_terms, shear = change + n_terms,
                                   plain_volume = shear + 1, n_sums = plain_volume / 4 * 4 + 4;
 
