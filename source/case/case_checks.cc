@@ -345,14 +345,16 @@ namespace scree
           ground[column]            = std::max(ground[column], x[dim - 1]);
         });
       Utilities::MPI::max(ground, communicator, ground);
+      const double top = lower[dim - 1] + parameters.grid.lengths()[dim - 1];
       double highest = h, first = -none, last = none;
       std::string place;
       for (unsigned int column = 0; column < n_all; ++column)
         {
+          if (ground[column] == none)
+            continue;
           Point<dim> x(dim == 2 ? Point<dim>() : (lower[1] + (column / n + 0.5) * h) * Point<dim>::unit_vector(1));
-          x[0]             = lower[0] + (column % n + 0.5) * h;
-          x[dim - 1]       = ground[column];
-          const double top = ground[column] > none ? lower[dim - 1] + parameters.grid.lengths()[dim - 1] : none;
+          x[0]       = lower[0] + (column % n + 0.5) * h;
+          x[dim - 1] = ground[column];
           while (x[dim - 1] < top && wet.contains(x + 0.25 * h * Point<dim>::unit_vector(dim - 1)))
             x[dim - 1] += 0.25 * h;
           const double above = x[dim - 1] - ground[column];

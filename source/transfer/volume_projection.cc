@@ -75,7 +75,7 @@ namespace scree
     });
     block.for_each_cell([&](const CellPoints<dim> &cell, const unsigned int first) {
       compliance[first] = 1;
-      if (are_several)
+      if (own)
         {
           double volume = 0, pressure = 0;
           for (unsigned int p = first; p < first + cell.n_points; ++p)
@@ -84,7 +84,7 @@ namespace scree
               pressure -= stress_volume[p];
             }
           const double bulk = body.material->initial_bulk_modulus(volume > 0 ? std::max(pressure / volume, 0.) : 0.);
-          compliance[first] = 1. / (bulk + 4. / 3. * body.material->shear_modulus);
+          compliance[first] = 1. / body.material->wave_modulus(bulk);
         }
       add_cell(cell, first, motion, shared);
     });
@@ -94,12 +94,12 @@ namespace scree
   template <int dim>
   void VolumeProjection<dim>::fit_changes(const CellBlock<dim> &cells, const BlockMotion<dim> &motion)
   {
-    if (!are_several)
+    if (!own)
       return;
-    own.clear();
+    own->clear();
     cells.for_each_cell(
-        [&](const CellPoints<dim> &cell, const unsigned int first) { add_cell(cell, first, motion, own); });
-    fit(own);
+        [&](const CellPoints<dim> &cell, const unsigned int first) { add_cell(cell, first, motion, *own); });
+    fit(*own);
   }
 
 
@@ -216,7 +216,7 @@ namespace scree
   void VolumeProjection<dim>::apply(const CellPoints<dim> &cell, const unsigned int first, BlockMotion<dim> &motion)
   {
     const unsigned int *vertices = grid.vertices().nodes(cell.cell);
-    const Sums &changes          = are_several ? own : shared;
+    const Sums &changes          = own ? *own : shared;
     const double modulus         = 1. / compliance[first];
     for_each_batch(cell.n_points, [&](const BatchIndices &indices, const unsigned int n) {
       const unsigned int p = first + indices[0];

@@ -182,6 +182,12 @@ namespace scree
     /// Tangent bulk modulus, Pa, at the mean compressive stress `pressure`, Pa.
     virtual double initial_bulk_modulus(const double pressure) const = 0;
 
+    /// Modulus of waves for a bulk modulus, both in Pa.
+    double wave_modulus(const double bulk_modulus) const
+    {
+      return bulk_modulus + 4. / 3. * shear_modulus;
+    }
+
     /// Speed c of pressure waves in space, m/s; 0 where there is no stiffness. With the stretch lambda along an axis
     /// and tau = M ln(lambda), c^2 = lambda^2/rho_0 d(tau/lambda)/d(lambda) = (M - tau)/rho_0: compression makes it
     /// faster.
@@ -190,7 +196,7 @@ namespace scree
     /// @param density at J = 1, kg/m^3
     double wave_speed(const double bulk_modulus, const double compression, const double density) const
     {
-      return std::sqrt((bulk_modulus + 4. / 3. * shear_modulus + compression) / density);
+      return std::sqrt((wave_modulus(bulk_modulus) + compression) / density);
     }
 
     /// Stored energy, J per m^3 of reference volume, of the state `left_cauchy_green`.

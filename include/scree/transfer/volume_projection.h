@@ -7,6 +7,7 @@
 #include <scree/mesh/node_values.h>
 #include <scree/transfer/f_bar.h>
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -36,7 +37,6 @@ namespace scree
     explicit VolumeProjection(const BackgroundGrid<dim> &grid)
         : grid(grid)
         , shared(grid.vertices())
-        , own(grid.vertices())
     {
     }
 
@@ -44,14 +44,19 @@ namespace scree
     void reinit()
     {
       shared.reinit();
-      own.reinit();
+      if (own)
+        own->reinit();
     }
 
     /// Empties the sums, before the points of the bodies that move together.
-    /// @param are_several whether they are several, so that the modulus does not cancel out
+    /// @param are_several always the same; with one body the modulus cancels out
     void clear(const unsigned int n_points, const bool are_several)
     {
-      this->are_several = are_several;
+      if (are_several && !own)
+        {
+          own = std::make_unique<Sums>(grid.vertices());
+          own->reinit();
+        }
       shared.clear();
       for (auto *list : { &elastic_strain, &weight, &stress_volume, &shear_of_step, &compliance })
         list->resize(n_points + batch_size);
@@ -100,7 +105,8 @@ namespace scree
     void fit(Sums &sums);
 
     const BackgroundGrid<dim> &grid;
-    Sums shared, own; // of all bodies; of the body at hand, if they are several
+    Sums shared;               // of all bodies
+    std::unique_ptr<Sums> own; // of the body at hand; null if there is one only
 
     // Of the points, as in BlockMotion
     std::vector<double> elastic_strain; // ln J_e at the start of the step; not a number without stress
@@ -109,7 +115,6 @@ namespace scree
     std::vector<double> shear_of_step;  // gamma
     std::vector<double> compliance;     // 1/M of a cell's points, 1/Pa, where its first one is; 1 for a single body
     Batch work;                         // see take_kept_work(), lane by lane
-    bool are_several = false;           // bodies
   };
 } // namespace scree
 
